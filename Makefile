@@ -33,7 +33,7 @@ test: setup model
 lint: setup
 	@tools/lint/run.sh
 
-measuring := manoeuvre_bench outcome_bench sim_bench intent_bench memory_bench model_host_process_bench
+measuring := rollout_bench sim_bench intent_bench memory_bench model_host_process_bench
 # Only the programs that measure are built, not the tests.
 bench: build model
 	@cmake --build --preset release --target $(measuring) -- --quiet
@@ -49,11 +49,11 @@ soak: setup
 	@cmake --preset release > /dev/null && cmake --build --preset release -- --quiet
 	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-1000} $(release)/modules/memory/memory_test --gtest_filter='*Killed*'
 	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} $(release)/apps/model_host/model_host_test --gtest_filter='SoakTest.*:HostTest.NoPrompt*'
-	SACA_SOAK_CLOCK=1 $(release)/modules/reason/reason_test --gtest_filter='*RealTime*'
+	SACA_SOAK_CLOCK=1 $(release)/modules/language_model/language_model_test --gtest_filter='*RealTime*'
 	PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider tests/cli/real_server_test.py
 	SACA_SOAK_TABLES=1 PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider tests/cli/suite_test.py -k table
-	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} $(release)/modules/outcome/outcome_test --gtest_filter='Exactness.*'
+	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} $(release)/modules/collision/collision_test --gtest_filter='Exactness.*'
 	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} $(release)/modules/eval/eval_test --gtest_filter='RolloutAgreement.*'
 	SACA_SOAK_HOURS=$${SACA_SOAK_HOURS:-24} $(release)/modules/runtime/runtime_test --gtest_filter='LongDrive.*'
-	SACA_SOAK_REACH=1 $(release)/modules/reach/reach_test --gtest_filter='FollowAgreement.*'
-	SACA_SOAK_AIR3D=1 $(release)/modules/reach/reach_test --gtest_filter='Air3dReference.*'
+	SACA_SOAK_REACH=1 $(release)/modules/danger/danger_test --gtest_filter='FollowAgreement.*'
+	SACA_SOAK_AIR3D=1 $(release)/modules/levelset/levelset_test --gtest_filter='Air3dReference.*'

@@ -56,20 +56,20 @@ function(saca_gtest test target)
   set_tests_properties(${test} PROPERTIES LABELS ${test} TIMEOUT ${SACA_TEST_TIMEOUT})
 endfunction()
 
-# saca_module(<name> [NOT_INSTALLED] [SOURCES <a.cpp>...] [DEPS <module>...] [THREADS <filter>]
-#             [ALONE <a_test.cpp>] [COMPUTES] [INNER_LOOPS])
+# saca_module(<name> [NOT_INSTALLED] [SOURCES <a.cpp>...] [DEPS <module>...] [TEST_DEPS <module>...]
+#             [THREADS <filter>] [ALONE <a_test.cpp>] [COMPUTES] [INNER_LOOPS])
 #
 # Makes the library saca::<name> from the current folder. All <a>_test.cpp in the folder become one
 # program, <name>_test, and the test <name>, but one that asks for a process of its own (ALONE); a
 # source without one stops the configuration. All <a>_bench.cpp become the program <name>_bench, run for an instant as a test so that it cannot rot.
-# One more test checks that the folder includes only the modules in DEPS. Tests run in the project's
-# folder. Under the thread sanitiser there is only the test <name>.threads: those that match THREADS.
+# One more test checks that the folder includes only the modules in DEPS; tests may use those in TEST_DEPS, too,
+# which may stand above. Tests run in the project's folder. Under the thread sanitiser there is only the test <name>.threads: those that match THREADS.
 # INNER_LOOPS: what all others spend their time in is optimised in a sanitiser's build, too.
 #
 # Files of tests are compiled together where builds are (CMAKE_UNITY_BUILD), so each has a namespace of
 # its own: saca::<name>::<a>_test.
 function(saca_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;COMPUTES;INNER_LOOPS" "THREADS;ALONE" "SOURCES;DEPS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;COMPUTES;INNER_LOOPS" "THREADS;ALONE" "SOURCES;DEPS;TEST_DEPS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "saca_module(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -81,6 +81,8 @@ function(saca_module name)
   endforeach()
 
   list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
+  list(TRANSFORM arg_TEST_DEPS PREPEND saca:: OUTPUT_VARIABLE test_libraries)
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
   set(taken FALSE)
   if(SACA_TAKE_FROM AND arg_COMPUTES)
     set(taken TRUE)
@@ -107,7 +109,7 @@ function(saca_module name)
     install(TARGETS saca_${name} EXPORT saca_targets)
     file(GLOB headers *.h)
     list(FILTER headers EXCLUDE REGEX "_(kernel|kernel_of|pack|handle|for_test)\\.h$")  # of kernels, other libraries and tests: not for others
-    install(FILES ${headers} DESTINATION include/saca/${name})
+    install(FILES ${headers} DESTINATION include/${folder})
   endif()
   if(NOT SACA_DEVELOPER OR taken)
     return()
@@ -116,7 +118,7 @@ function(saca_module name)
   foreach(source IN LISTS arg_SOURCES)
     cmake_path(GET source STEM stem)
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${stem}_test.cpp)
-      message(FATAL_ERROR "saca/${name}/${source} has no ${stem}_test.cpp beside it")
+      message(FATAL_ERROR "${folder}/${source} has no ${stem}_test.cpp beside it")
     endif()
   endforeach()
 
@@ -124,7 +126,7 @@ function(saca_module name)
   if(arg_ALONE)
     list(REMOVE_ITEM tests ${CMAKE_CURRENT_SOURCE_DIR}/${arg_ALONE})
   endif()
-  saca_test(${name}_test ${tests} LIBRARIES saca::${name} TAKEN saca_${name})
+  saca_test(${name}_test ${tests} LIBRARIES saca::${name} ${test_libraries} TAKEN saca_${name})
   if(SACA_THREAD_SANITISER)
     if(arg_THREADS)
       saca_gtest(${name}.threads ${name}_test --gtest_filter=${arg_THREADS})
@@ -134,7 +136,7 @@ function(saca_module name)
   saca_gtest(${name} ${name}_test)
   if(arg_ALONE)
     cmake_path(GET arg_ALONE STEM alone)
-    saca_test(${name}_${alone} ${arg_ALONE} LIBRARIES saca::${name})
+    saca_test(${name}_${alone} ${arg_ALONE} LIBRARIES saca::${name} ${test_libraries})
     saca_gtest(${name}.alone ${name}_${alone})
   endif()
 
@@ -145,15 +147,16 @@ function(saca_module name)
   file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)
   if(benches)
     add_executable(${name}_bench ${benches})
-    target_link_libraries(${name}_bench PRIVATE saca::${name} saca_flags benchmark::benchmark_main)
+    target_link_libraries(${name}_bench PRIVATE saca::${name} ${test_libraries} saca_flags benchmark::benchmark_main)
     add_test(NAME ${name}.bench COMMAND ${name}_bench --benchmark_min_time=0.001
       WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${name}.bench PROPERTIES LABELS bench TIMEOUT ${SACA_TEST_TIMEOUT})
   endif()
 
   list(JOIN arg_DEPS "," allowed)
+  list(JOIN arg_TEST_DEPS "," in_tests)
   add_test(NAME ${name}.layers COMMAND ${CMAKE_COMMAND}
-    -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} -DALLOWED=${name},${allowed}
+    -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} -DALLOWED=${name},${allowed} -DIN_TESTS=${in_tests}
     -P ${PROJECT_SOURCE_DIR}/cmake/CheckLayers.cmake)
   set_tests_properties(${name}.layers PROPERTIES LABELS ${name})
 endfunction()

@@ -41,8 +41,8 @@ bench_vehicle        saca bench vehicle --json
 bench_decide         saca bench decide --calls 300000 --json
 bench_atlas          saca bench atlas --json
 bench_reach          saca bench reach --json
-batch                manoeuvre_bench --benchmark_min_time=1 --benchmark_format=json
-outcome              outcome_bench --benchmark_min_time=1 --benchmark_format=json
+batch                rollout_bench --benchmark_filter=scenes --benchmark_min_time=1 --benchmark_format=json
+outcome              rollout_bench --benchmark_filter='judge|slide' --benchmark_min_time=1 --benchmark_format=json
 perception           sim_bench --benchmark_min_time=1 --benchmark_format=json
 intent               intent_bench --benchmark_min_time=1 --benchmark_format=json
 memory               memory_bench --benchmark_min_time=0.5 --benchmark_format=json
@@ -54,7 +54,7 @@ END
 figures=$PWD/build/figures
 export SACA_INTENTION=${SACA_INTENTION:-$PWD/build/intention}
 export PATH=$PWD/build/release:$PWD/build/release/apps/model_host:$PWD/tools:$PATH
-for module in manoeuvre outcome sim intent memory; do PATH+=:$PWD/build/release/modules/$module; done
+for module in rollout sim intent memory; do PATH+=:$PWD/build/release/modules/$module; done
 
 # The last commit that changed the programs or what they read.
 programs=(saca apps data scenarios models cmake CMakeLists.txt CMakePresets.json)

@@ -38,7 +38,7 @@ step "tests" tools/ctest_again.py release --parallel "$at_once"
 # What reads files, replies and scenes, shares memory or begins processes (docs/testing.md).
 step "build: address and undefined-behaviour sanitiser" build asan-quick
 step "tests: address and undefined-behaviour sanitiser" tools/ctest_again.py asan-quick --parallel "$at_once"
-step "build: thread sanitiser" build tsan core_test loop_test reason_test runtime_test
+step "build: thread sanitiser" build tsan core_test encounter_test language_model_test runtime_test
 step "tests: thread sanitiser" tools/ctest_again.py tsan --parallel "$at_once"
 step "lint: what has changed" tools/lint/run.sh --changed
 step "package: installed, found and used by another project" tools/check_package.sh

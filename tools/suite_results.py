@@ -29,7 +29,7 @@ ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unawar
          "saca_paper_at_once", "saca_paper_untuned", "saca_paper_unaware", "saca_paper_no_facts", "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "imitation", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "least_danger", "least_joint_danger", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn",
          "beliefs_and_danger", "beliefs_and_experience", "beliefs_and_grip", "beliefs_and_followers",
-         "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/eval/methods.cpp has them
+         "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/lab/eval/methods.cpp has them
 
 
 def trimmed(figures):
@@ -174,7 +174,7 @@ def tables_section(figures):
     return "\n".join(text)
 
 
-MODELS = ("constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "mixture_lstm", "shipped")  # as saca/eval/forecast_score.cpp has them
+MODELS = ("constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "mixture_lstm", "shipped")  # as saca/lab/eval/forecast_score.cpp has them
 TIMES = (500, 1000, 2000, 3000)
 GROUPS = (("all", "All road users that move"), ("acting", "Those that act: after 2 s more than 1 m from where they would be, straight on"),
           ("aside", "Vehicles that are seen to move aside by more than 0.5 m/s"))

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "saca/core/result.h"
+#include "saca/base/core/result.h"
 
 namespace saca::model_host {
 

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/core/clock.h"
-#include "saca/core/result.h"
-#include "saca/manoeuvre/plan.h"
-#include "saca/reason/language_model.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/result.h"
+#include "saca/onboard/manoeuvre/plan.h"
+#include "saca/thinking/language_model/language_model.h"
 
 namespace saca::model_host {
 
@@ -26,7 +26,7 @@ struct EngineSettings {
   bool flash_attention = false;
 };
 
-using AnswerKind = reason::Answer::Kind;
+using AnswerKind = language_model::Answer::Kind;
 
 /// What happens while scenes are thought about; called on the asking thread.
 struct EngineEvents {
@@ -48,7 +48,7 @@ struct AskFigures {
   bool overran = false;            ///< the deadline passed before the last answer was there
 };
 
-constexpr std::size_t max_scenes = reason::most_scenes;
+constexpr std::size_t max_scenes = language_model::most_scenes;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
 /// A language model in this process, through llama.cpp. Greedy: the same weights, system part,

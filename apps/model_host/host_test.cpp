@@ -5,19 +5,19 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "saca/core/file.h"
-#include "saca/outcome/harm.h"
-#include "saca/reason/child_model.h"
-#include "saca/reason/crowded_situation_for_test.h"
-#include "saca/reason/example_situation.h"
-#include "saca/reason/prompt.h"
-#include "saca/reason/token_bound.h"
+#include "saca/base/core/file.h"
+#include "saca/onboard/collision/harm.h"
+#include "saca/thinking/language_model/child_model.h"
+#include "saca/thinking/language_model/crowded_situation_for_test.h"
+#include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/token_bound.h"
 
 namespace saca::model_host::host_test {
 namespace {
 
 using namespace std::chrono_literals;
-using reason::Answer;
+using language_model::Answer;
 
 constexpr int chat_tokens = 8;    // that the template puts around a scene
 constexpr auto patience = 25min;  // a busy machine is slow; nothing here is about speed
@@ -29,35 +29,36 @@ class HostTest : public testing::Test {
       GTEST_SKIP() << SACA_MODEL << " is not there";
     }
     situation_.posteriors[0][0] = 0.88;
-    scene_ = reason::scene_part(situation_, std::nullopt, 0.0);
+    scene_ = language_model::scene_part(situation_, std::nullopt, 0.0);
   }
 
   /// One thread: two that meet at each step take three times as long where somebody else computes.
-  [[nodiscard]] reason::ChildModelSettings settings(int max_tokens) const {
+  [[nodiscard]] language_model::ChildModelSettings settings(int max_tokens) const {
     return {.command = {SACA_MODEL_HOST, "--threads", "1", "--model", SACA_MODEL},
-            .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
+            .system = language_model::system_part(collision::read_harm(SACA_HARM).value()),
             .identity = "base",
             .max_tokens = max_tokens};
   }
 
   SteadyClock clock_;
-  preview::Situation situation_ = reason::example_situation();
+  preview::Situation situation_ = language_model::example_situation();
   std::string scene_;
-  std::function<void(const reason::Progress&)> nobody_ = [](const reason::Progress&) {};
+  std::function<void(const language_model::Progress&)> nobody_ =
+      [](const language_model::Progress&) {};
 };
 
 TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
   constexpr int most = 60;  // a reply of the shipped weights is longer
-  reason::ChildModelSettings patient = settings(most);
+  language_model::ChildModelSettings patient = settings(most);
   patient.margin = 100.0;  // a busy machine may be slow to stop
-  reason::ChildModel model(patient, clock_);
+  language_model::ChildModel model(patient, clock_);
   const auto alone = model.ask({scene_}, clock_.now() + patience, nobody_);
   for (const bool while_it_reads : {true, false}) {
     std::stop_source stop;
     if (while_it_reads) {
       stop.request_stop();
     }
-    const auto at_first_word = [&](const reason::Progress& p) {
+    const auto at_first_word = [&](const language_model::Progress& p) {
       if (!p.text.empty()) {
         stop.request_stop();
       }
@@ -81,7 +82,7 @@ TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
 }
 
 TEST_F(HostTest, SameQuestionSameReply) {
-  reason::ChildModel model(settings(6), clock_);
+  language_model::ChildModel model(settings(6), clock_);
   const auto once = model.ask({scene_, scene_}, clock_.now() + patience, nobody_);
   const auto again = model.ask({scene_, scene_}, clock_.now() + patience, nobody_);
   ASSERT_TRUE(once.has_value()) << once.error().message;
@@ -103,8 +104,8 @@ TEST_F(HostTest, SameQuestionSameReply) {
 // Shared prefix or not, alone or beside others: a scene's first answer is its own.
 TEST_F(HostTest, OtherScenesDoNotChangeAFirstAnswer) {
   situation_.scene_at_trigger.ego.v_B.x = 9.0;
-  const std::string other = reason::scene_part(situation_, std::nullopt, 0.0);
-  reason::ChildModel model(settings(0), clock_);
+  const std::string other = language_model::scene_part(situation_, std::nullopt, 0.0);
+  language_model::ChildModel model(settings(0), clock_);
   const auto alone = model.ask({scene_}, clock_.now() + patience, nobody_);
   const auto beside = model.ask({other, scene_}, clock_.now() + patience, nobody_);
   ASSERT_TRUE(alone.has_value() && beside.has_value());
@@ -115,32 +116,35 @@ TEST_F(HostTest, OtherScenesDoNotChangeAFirstAnswer) {
 
 // What the tokeniser says, not we. Reading takes its time: `make soak` looks at more scenes.
 TEST_F(HostTest, NoPromptIsLongerThanItsBound) {
-  reason::ChildModel model(settings(0), clock_);
+  language_model::ChildModel model(settings(0), clock_);
   std::vector<std::string> scenes{scene_};
   const unsigned num_seeds = std::getenv("SACA_SOAK_ASKS") != nullptr ? 50 : 4;
   for (unsigned seed = 0; seed < num_seeds; ++seed) {
     memory::Case nearest;
     nearest.harm = 0.0321;
     nearest.best_harm = 1.25;
-    scenes.push_back(reason::scene_part(reason::crowded_situation(seed), nearest, 0.5));
+    scenes.push_back(
+        language_model::scene_part(language_model::crowded_situation(seed), nearest, 0.5));
   }
   for (const std::string& scene : scenes) {
     const auto replies = model.ask({scene}, clock_.now() + patience, nobody_);
     ASSERT_TRUE(replies.has_value()) << replies.error().message;
     const int tokens = replies.value()[0].prompt_tokens;
-    EXPECT_LE(tokens, reason::tokens_at_most(scene) + chat_tokens) << scene;
-    EXPECT_GE(tokens, reason::tokens_at_most(scene) * 9 / 10) << "the bound wastes much: " << scene;
-    EXPECT_LE(tokens, reason::most_prompt_tokens + chat_tokens) << scene;
+    EXPECT_LE(tokens, language_model::tokens_at_most(scene) + chat_tokens) << scene;
+    EXPECT_GE(tokens, language_model::tokens_at_most(scene) * 9 / 10)
+        << "the bound wastes much: " << scene;
+    EXPECT_LE(tokens, language_model::most_prompt_tokens + chat_tokens) << scene;
   }
 }
 
 TEST_F(HostTest, KilledInTheMiddleItAnswersTheNextQuestion) {
-  reason::ChildModel model(settings(500), clock_);
-  const auto cut = model.ask({scene_}, clock_.now() + patience, [&](const reason::Progress& p) {
-    if (p.answer != nullptr) {
-      kill(model.pid().value(), SIGKILL);
-    }
-  });
+  language_model::ChildModel model(settings(500), clock_);
+  const auto cut =
+      model.ask({scene_}, clock_.now() + patience, [&](const language_model::Progress& p) {
+        if (p.answer != nullptr) {
+          kill(model.pid().value(), SIGKILL);
+        }
+      });
   ASSERT_TRUE(cut.has_value());
   EXPECT_EQ(cut.value()[0].answers.size(), 1U);
   EXPECT_EQ(model.restarts(), 1);
@@ -148,7 +152,7 @@ TEST_F(HostTest, KilledInTheMiddleItAnswersTheNextQuestion) {
 }
 
 TEST_F(HostTest, PromptThatDoesNotFitIsRefused) {
-  reason::ChildModel model(settings(6), clock_);
+  language_model::ChildModel model(settings(6), clock_);
   std::string endless;
   for (int i = 0; i < 2000; ++i) {
     endless += "car ";
@@ -164,9 +168,9 @@ TEST_F(HostTest, PromptThatDoesNotFitIsRefused) {
 TEST_F(HostTest, WrongWeightsAreNamed) {
   const std::filesystem::path folder = testing::TempDir();
   const auto refused = [&](const std::filesystem::path& weights) {
-    reason::ChildModelSettings wrong = settings(6);
+    language_model::ChildModelSettings wrong = settings(6);
     wrong.command.back() = weights;
-    reason::ChildModel model(wrong, clock_);
+    language_model::ChildModel model(wrong, clock_);
     const auto replies = model.ask({scene_}, clock_.now() + patience, nobody_);
     std::filesystem::remove(weights);
     return replies.has_value() ? "it answered" : replies.error().message;

@@ -18,7 +18,7 @@
 #include <iostream>
 #include <thread>
 
-#include "saca/core/standard_files.h"
+#include "saca/base/core/standard_files.h"
 #include "service.h"
 
 namespace {

@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "engine.h"
-#include "saca/outcome/harm.h"
-#include "saca/reason/child_model.h"
-#include "saca/reason/example_situation.h"
-#include "saca/reason/prompt.h"
+#include "saca/onboard/collision/harm.h"
+#include "saca/thinking/language_model/child_model.h"
+#include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/prompt.h"
 
 namespace saca::model_host {
 namespace {
@@ -21,11 +21,11 @@ using namespace std::chrono_literals;
 constexpr auto without_haste = 5min;
 
 std::string system_part() {
-  return reason::system_part(outcome::read_harm(SACA_HARM).value());
+  return language_model::system_part(collision::read_harm(SACA_HARM).value());
 }
 
 std::string scene_part() {
-  return reason::scene_part(reason::example_situation(), std::nullopt, 0.0);
+  return language_model::scene_part(language_model::example_situation(), std::nullopt, 0.0);
 }
 
 bool is_there(benchmark::State& state) {
@@ -64,12 +64,13 @@ void in_a_child_process(benchmark::State& state) {
     return;
   }
   SteadyClock clock;
-  reason::ChildModel model({.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads",
-                                        std::to_string(std::thread::hardware_concurrency())},
-                            .system = system_part(),
-                            .identity = "base",
-                            .max_tokens = static_cast<int>(state.range(0))},
-                           clock);
+  language_model::ChildModel model(
+      {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads",
+                   std::to_string(std::thread::hardware_concurrency())},
+       .system = system_part(),
+       .identity = "base",
+       .max_tokens = static_cast<int>(state.range(0))},
+      clock);
   if (const auto problem = model.wait_until_ready(clock.now() + without_haste)) {
     state.SkipWithError(problem->message.c_str());
     return;
@@ -77,7 +78,7 @@ void in_a_child_process(benchmark::State& state) {
   const std::string scene = scene_part();
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        model.ask({scene}, clock.now() + without_haste, [](const reason::Progress&) {}));
+        model.ask({scene}, clock.now() + without_haste, [](const language_model::Progress&) {}));
   }
 }
 

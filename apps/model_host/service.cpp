@@ -8,12 +8,12 @@
 #include <ostream>
 
 #include "inbox.h"
-#include "saca/reason/protocol.h"
+#include "saca/thinking/language_model/protocol.h"
 
 namespace saca::model_host {
 namespace {
 
-namespace protocol = reason::protocol;
+namespace protocol = language_model::protocol;
 
 constexpr Clock::Time look_pause = std::chrono::milliseconds(2);  // between looks for a cancel
 

@@ -2,8 +2,8 @@
 // what it measures is the machine's. That no deadline is overrun holds beside one busy core, which
 // the test itself keeps busy, on a machine that has nothing else to do; without the variables only
 // few are asked, and what must hold on any machine is held. What the planes do when a model is
-// late, silent or dies is tested on a clock of its own in reason/child_model_test.cpp. Skipped
-// where `make model` has not been run.
+// late, silent or dies is tested on a clock of its own in language_model/child_model_test.cpp.
+// Skipped where `make model` has not been run.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@
 #include <random>
 #include <thread>
 
-#include "saca/outcome/harm.h"
-#include "saca/reason/child_model.h"
-#include "saca/reason/crowded_situation_for_test.h"
-#include "saca/reason/prompt.h"
+#include "saca/onboard/collision/harm.h"
+#include "saca/thinking/language_model/child_model.h"
+#include "saca/thinking/language_model/crowded_situation_for_test.h"
+#include "saca/thinking/language_model/prompt.h"
 
 namespace saca::model_host::soak_test {
 namespace {
@@ -72,7 +72,8 @@ class SoakTest : public testing::Test {
       GTEST_SKIP() << SACA_MODEL << " is not there";
     }
     for (unsigned seed = 0; seed < 8; ++seed) {
-      scenes_.push_back(reason::scene_part(reason::crowded_situation(seed), std::nullopt, 0.0));
+      scenes_.push_back(
+          language_model::scene_part(language_model::crowded_situation(seed), std::nullopt, 0.0));
     }
   }
 
@@ -92,11 +93,11 @@ class SoakTest : public testing::Test {
   SteadyClock clock_;
   std::mt19937 random_{11};
   std::vector<std::string> scenes_;
-  reason::ChildModel model_{
+  language_model::ChildModel model_{
       {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads", "2", "--give-way"},
-       .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
+       .system = language_model::system_part(collision::read_harm(SACA_HARM).value()),
        .identity = "base",
-       .max_tokens = soaking() ? reason::ChildModelSettings{}.max_tokens : 24},
+       .max_tokens = soaking() ? language_model::ChildModelSettings{}.max_tokens : 24},
       clock_};
 };
 
@@ -111,7 +112,8 @@ TEST_F(SoakTest, DeadlinesAreKeptWhileTheOtherCoreIsBusy) {
   for (int i = 0; i < num; ++i) {
     const Clock::Time begin = clock_.now();
     const Clock::Time deadline = begin + drawn(0.05, 4.0);
-    const auto replies = model_.ask(some_scenes(), deadline, [](const reason::Progress&) {});
+    const auto replies =
+        model_.ask(some_scenes(), deadline, [](const language_model::Progress&) {});
     const double over = to_seconds(clock_.now() - deadline);
     worst = std::max(worst, over);
     overruns += over > 0.0 ? 1 : 0;
@@ -145,12 +147,13 @@ TEST_F(SoakTest, OutlivesItsModel) {
       kill(child, signal);
     });
     const Clock::Time deadline = clock_.now() + from_seconds(patience);
-    const auto replies = model_.ask(some_scenes(), deadline, [](const reason::Progress&) {});
+    const auto replies =
+        model_.ask(some_scenes(), deadline, [](const language_model::Progress&) {});
     overruns += clock_.now() > deadline ? 1 : 0;
     killer.join();
     answered += replies.has_value() ? 1 : 0;
     if (replies.has_value()) {
-      for (const reason::Reply& reply : replies.value()) {
+      for (const language_model::Reply& reply : replies.value()) {
         EXPECT_TRUE(reply.answers.empty() || reply.reasoning.size() < 65'536);
       }
     }
@@ -162,7 +165,8 @@ TEST_F(SoakTest, OutlivesItsModel) {
     EXPECT_EQ(overruns, 0);
   }
   EXPECT_TRUE(
-      model_.ask({scenes_[0]}, clock_.now() + loading, [](const reason::Progress&) {}).has_value());
+      model_.ask({scenes_[0]}, clock_.now() + loading, [](const language_model::Progress&) {})
+          .has_value());
 }
 
 }  // namespace

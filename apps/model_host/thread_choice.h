@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "saca/reason/language_model.h"
+#include "saca/thinking/language_model/language_model.h"
 
 namespace saca::model_host {
 
@@ -74,7 +74,7 @@ class ThreadChoice {
   bool alone_ = false;
   double lost_ = 0.0;            ///< by steps of all threads, since they last gained [s]
   double prompt_token_ = never;  ///< at best, with all threads [s]
-  std::array<double, reason::most_scenes> step_alone_{never, never, never};
+  std::array<double, language_model::most_scenes> step_alone_{never, never, never};
 };
 
 }  // namespace saca::model_host

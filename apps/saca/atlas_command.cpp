@@ -17,17 +17,17 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/atlas_check.h"
-#include "saca/manoeuvre/atlas_file.h"
-#include "saca/sim/splits.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/atlas_check.h"
+#include "saca/lab/families/splits.h"
+#include "saca/onboard/atlas/atlas_file.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using manoeuvre::AtlasAxes;
-using manoeuvre::AtlasKind;
+using atlas::AtlasAxes;
+using atlas::AtlasKind;
 using nlohmann::json;
 
 struct AtlasOptions {
@@ -51,7 +51,7 @@ int build(const AtlasOptions& options) {
     return refused(inputs.error());
   }
   const fs::path output = file_of(options, inputs.value());
-  if (manoeuvre::read_atlas(output, inputs.value().car).has_value()) {
+  if (atlas::read_atlas(output, inputs.value().car).has_value()) {
     app::print("{} is there and right for this car\n", output.string());
     return success;
   }
@@ -79,9 +79,9 @@ json axis_of(const AtlasAxes::Axis& axis) {
   return values;
 }
 
-json told(const manoeuvre::AtlasInfo& info, const std::optional<std::string>& problem) {
+json told(const atlas::AtlasInfo& info, const std::optional<std::string>& problem) {
   json kinds = json::array();
-  for (std::size_t kind = 0; kind < manoeuvre::num_atlas_kinds; ++kind) {
+  for (std::size_t kind = 0; kind < atlas::num_atlas_kinds; ++kind) {
     const AtlasAxes& axes = info.grid[kind];
     const bool stops = static_cast<AtlasKind>(kind) == AtlasKind::stop;
     kinds.push_back({{"kind", name(static_cast<AtlasKind>(kind))},
@@ -92,7 +92,7 @@ json told(const manoeuvre::AtlasInfo& info, const std::optional<std::string>& pr
                      {stops ? "strength" : "target_share", axis_of(axes.shares)}});
   }
   return {{"schema", "saca.atlas_info/1"},
-          {"version", manoeuvre::atlas_version},
+          {"version", atlas::atlas_version},
           {"car_hash", fmt::format("{:016x}", info.car)},
           {"bytes", info.bytes},
           {"points", num_nodes(info.grid)},
@@ -107,18 +107,18 @@ int tell(const AtlasOptions& options) {
     return refused(inputs.error());
   }
   const fs::path file = file_of(options, inputs.value());
-  const auto info = manoeuvre::read_atlas_info(file);
+  const auto info = atlas::read_atlas_info(file);
   if (!info.has_value()) {
     return refused(info.error());
   }
-  const auto atlas = manoeuvre::read_atlas(file, inputs.value().car);
+  const auto atlas = atlas::read_atlas(file, inputs.value().car);
   const auto problem = atlas.has_value() ? std::nullopt : std::optional(atlas.error().message);
   const json about = told(info.value(), problem);
   if (options.as_json) {
     app::print_json(about);
   } else {
     app::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", file.string(),
-               manoeuvre::atlas_version, num_nodes(info.value().grid),
+               atlas::atlas_version, num_nodes(info.value().grid),
                1e-6 * static_cast<double>(info.value().bytes),
                about["car_hash"].get<std::string>());
     for (const json& kind : about["kinds"]) {
@@ -207,7 +207,7 @@ int check(const AtlasOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const auto atlas = manoeuvre::read_atlas(file_of(options, inputs.value()), inputs.value().car);
+  const auto atlas = atlas::read_atlas(file_of(options, inputs.value()), inputs.value().car);
   if (!atlas.has_value()) {
     return refused(atlas.error());
   }
@@ -215,21 +215,22 @@ int check(const AtlasOptions& options) {
   if (!splits.has_value()) {
     return refused(splits.error());
   }
-  if (options.seed == splits.value().seeds[static_cast<std::size_t>(sim::Split::test)]) {
+  if (options.seed == splits.value().seeds[static_cast<std::size_t>(families::Split::test)]) {
     complain(fmt::format("--seed: want any but the test split's, got {}", *options.seed));
     return bad_input;
   }
   // All but those that are kept for the test split, which seed_for would refuse.
   constexpr std::array<const char*, 7> names{"crossing",    "cut_in",  "cut_out",   "head_on",
                                              "lead_brakes", "one_way", "pedestrian"};
-  std::vector<sim::Family> families;
+  std::vector<families::Family> families;
   std::vector<std::uint64_t> seeds;
   for (const char* const one : names) {
     auto family = read_family(inputs.value().places, one);
     if (!family.has_value()) {
       return refused(family.error());
     }
-    const auto seed = sim::seed_for(splits.value(), sim::Split::calibration, one, std::nullopt);
+    const auto seed =
+        families::seed_for(splits.value(), families::Split::calibration, one, std::nullopt);
     if (!seed.has_value()) {
       return refused(seed.error());
     }

@@ -7,11 +7,11 @@
 
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/manoeuvre/atlas_build.h"
-#include "saca/manoeuvre/atlas_file.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/prepare/atlas_build.h"
+#include "saca/onboard/atlas/atlas_file.h"
 
 namespace saca::app {
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct NewAtlas {
-  manoeuvre::Atlas atlas;
+  atlas::Atlas atlas;
   std::optional<Error> not_written;
 };
 
@@ -28,10 +28,10 @@ struct NewAtlas {
 Result<std::optional<NewAtlas>> made(const Inputs& inputs, const fs::path& file, int threads,
                                      const fs::path& journal) {
   SteadyClock clock;
-  const auto grid = manoeuvre::default_atlas_grid();
+  const auto grid = atlas::default_atlas_grid();
   ProgressLine line("atlas", static_cast<int>(num_nodes(grid)), clock);
-  const auto nodes = manoeuvre::build_atlas(
-      inputs.car, grid, threads, journal, [&](const manoeuvre::AtlasProgress& progress) {
+  const auto nodes = prepare::build_atlas(
+      inputs.car, grid, threads, journal, [&](const prepare::AtlasProgress& progress) {
         line.show(static_cast<int>(progress.done), static_cast<int>(progress.remembered),
                   " points");
         return !interrupted();
@@ -44,15 +44,15 @@ Result<std::optional<NewAtlas>> made(const Inputs& inputs, const fs::path& file,
   }
   auto problem = make_folder_of(file);
   if (!problem) {
-    problem = write_file(file, manoeuvre::atlas_bytes(inputs.car, grid, *nodes.value()));
+    problem = write_file(file, atlas::atlas_bytes(inputs.car, grid, *nodes.value()));
   }
   return std::optional(NewAtlas{{grid, inputs.car.tuning.domain, nodes.value()}, problem});
 }
 
 }  // namespace
 
-Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs, const fs::path& file,
-                                                   int threads) {
+Result<std::optional<atlas::Atlas>> make_atlas(const Inputs& inputs, const fs::path& file,
+                                               int threads) {
   if (auto problem = make_folder_of(file)) {
     return *problem;
   }
@@ -66,7 +66,7 @@ Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs, const f
     complain(fmt::format(
         "interrupted; {} was not written. The same command goes on where this one stopped.",
         file.string()));
-    return std::optional<manoeuvre::Atlas>();
+    return std::optional<atlas::Atlas>();
   }
   if (one.value()->not_written) {
     return *one.value()->not_written;
@@ -76,9 +76,9 @@ Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs, const f
   return std::optional(one.value()->atlas);
 }
 
-manoeuvre::Atlas usual_atlas(const Inputs& inputs) {
+atlas::Atlas usual_atlas(const Inputs& inputs) {
   const fs::path file = atlas_place(inputs.places, inputs.car_name);
-  const auto there = manoeuvre::read_atlas(file, inputs.car);
+  const auto there = atlas::read_atlas(file, inputs.car);
   if (there.has_value()) {
     return there.value();
   }

@@ -4,20 +4,20 @@
 #include <optional>
 
 #include "apps/saca/inputs.h"
-#include "saca/core/result.h"
-#include "saca/manoeuvre/atlas.h"
+#include "saca/base/core/result.h"
+#include "saca/onboard/atlas/atlas.h"
 
 namespace saca::app {
 
 /// Builds the atlas of the inputs' car into a file, with progress on the error stream; an
 /// interrupted build goes on where it stopped.
 /// @return  nullopt: interrupted, and told so
-[[nodiscard]] Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs,
-                                                                 const std::filesystem::path& file,
-                                                                 int threads);
+[[nodiscard]] Result<std::optional<atlas::Atlas>> make_atlas(const Inputs& inputs,
+                                                             const std::filesystem::path& file,
+                                                             int threads);
 
 /// The one at `atlas_place`. Where there is none that is right for this car and this program, it is
 /// built, in seconds, and kept there if it can be.
-[[nodiscard]] manoeuvre::Atlas usual_atlas(const Inputs& inputs);
+[[nodiscard]] atlas::Atlas usual_atlas(const Inputs& inputs);
 
 }  // namespace saca::app

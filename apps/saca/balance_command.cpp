@@ -12,7 +12,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
-#include "saca/core/proportion.h"
+#include "saca/base/core/proportion.h"
 
 namespace saca::app {
 namespace {

@@ -21,14 +21,14 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_bench.h"
 #include "apps/saca/within.h"
-#include "saca/core/clock.h"
-#include "saca/core/percentile.h"
-#include "saca/manoeuvre/atlas.h"
-#include "saca/manoeuvre/car.h"
-#include "saca/manoeuvre/controller.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/outcome/futures.h"
-#include "saca/world/time_to_conflict.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/percentile.h"
+#include "saca/base/world/time_to_conflict.h"
+#include "saca/onboard/atlas/atlas.h"
+#include "saca/onboard/forecast/futures.h"
+#include "saca/onboard/manoeuvre/car.h"
+#include "saca/onboard/manoeuvre/controller.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {
@@ -57,8 +57,9 @@ void bench_vehicle(const manoeuvre::Car& car, const Clock& clock, json& figures)
 
 /// All eight read from the atlas and judged: percentiles, with one target speed and with four, the
 /// others known exactly and with their spread.
-void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
-                 const outcome::HarmModel& harm, const Clock& clock, int num_calls, json& figures) {
+void bench_atlas(const manoeuvre::Car& car, const atlas::Atlas& atlas,
+                 const collision::HarmModel& harm, const Clock& clock, int num_calls,
+                 json& figures) {
   constexpr std::array half{0.5};
   for (const int num_actors : {1, 8, 32}) {
     for (const bool spread : {false, true}) {
@@ -85,10 +86,10 @@ void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
         for (int call = 0; call < num_calls; ++call) {
           const std::size_t i = static_cast<std::size_t>(call) % scenes.size();
           const Clock::Time start = clock.now();
-          const outcome::Futures all =
-              outcome::futures(atlas, scenes[i], tracks[i], harm,
-                               chooses ? std::span<const double>(outcome::target_shares)
-                                       : std::span<const double>(half));
+          const forecast::Futures all =
+              forecast::futures(atlas, scenes[i], tracks[i], harm,
+                                chooses ? std::span<const double>(forecast::target_shares)
+                                        : std::span<const double>(half));
           times.push_back(1e6 * to_seconds(clock.now() - start));
           num_outside += all[0].outside ? 1 : 0;
         }
@@ -135,7 +136,7 @@ int bench(const BenchOptions& options) {
   }
   const int fewer_calls = std::min(options.calls, 10'000);
   if (asked("decide") || asked("atlas")) {
-    const manoeuvre::Atlas atlas = usual_atlas(inputs);
+    const atlas::Atlas atlas = usual_atlas(inputs);
     if (asked("decide")) {
       bench_decide(inputs, atlas, clock, options.calls, figures);
     }

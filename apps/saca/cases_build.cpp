@@ -13,8 +13,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/version.h"
-#include "saca/core/parallel.h"
-#include "saca/memory/case_json.h"
+#include "saca/base/core/parallel.h"
+#include "saca/thinking/memory/case_json.h"
 
 namespace saca::app {
 namespace {
@@ -200,7 +200,7 @@ int build_cases(const CasesBuildOptions& options) {
       complain(row.problem);
     }
     if (row.made) {
-      row.made->judged.one.id = static_cast<memory::CaseId>(cases.size() + 1);
+      row.made->judged.one.id = static_cast<match::CaseId>(cases.size() + 1);
       cases.push_back(*std::move(row.made));
     }
   }

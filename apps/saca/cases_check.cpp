@@ -10,8 +10,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/eval/chat_set.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/eval/chat_set.h"
 
 namespace saca::app {
 namespace {

@@ -19,8 +19,8 @@
 #include "apps/saca/resumable.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/version.h"
-#include "saca/config/json_lines.h"
-#include "saca/eval/reply_score.h"
+#include "saca/base/config/json_lines.h"
+#include "saca/lab/eval/reply_score.h"
 
 namespace saca::app {
 namespace {
@@ -47,7 +47,7 @@ using ReplyRow = ItemsRow<ExampleReply>;
 
 /// @param failure  why the model cannot be asked any more, if that is so: the row is then worth
 ///                 nothing. That an answer is malformed is something that the model said
-ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, const Clock& clock,
+ReplyRow asked_about(DrawnExamples drawn, language_model::LanguageModel& model, const Clock& clock,
                      std::optional<Error>& failure) {
   ReplyRow row{.items = {}, .problem = std::move(drawn.problem)};
   if (drawn.examples.empty()) {
@@ -58,7 +58,7 @@ ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, const Cl
     scenes.push_back(each.example.prompt);
   }
   const auto replies =
-      model.ask(scenes, clock.now() + patience_with_model, [](const reason::Progress&) {});
+      model.ask(scenes, clock.now() + patience_with_model, [](const language_model::Progress&) {});
   if (!replies.has_value()) {
     const std::string& record = drawn.examples.front().example.record;
     row.problem = record + ": " + replies.error().message;

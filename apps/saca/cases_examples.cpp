@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "apps/saca/cases_making.h"
-#include "saca/config/compressed_text.h"
-#include "saca/core/fnv.h"
-#include "saca/decide/forecaster.h"
-#include "saca/eval/suite_source.h"
-#include "saca/memory/case_json.h"
-#include "saca/memory/store.h"
-#include "saca/sim/splits.h"
+#include "saca/base/config/compressed_text.h"
+#include "saca/base/core/fnv.h"
+#include "saca/lab/eval/suite_source.h"
+#include "saca/lab/families/splits.h"
+#include "saca/thinking/arbitration/forecaster.h"
+#include "saca/thinking/memory/case_json.h"
+#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 
@@ -47,7 +47,7 @@ ToldCases::ToldCases(std::vector<memory::Case> cases)
 }
 
 std::optional<eval::ToldCase> ToldCases::in(const world::Scene& scene) const {
-  const auto recalled = experience_.recall(memory::features(scene));
+  const auto recalled = experience_.recall(match::features(scene));
   if (!recalled) {
     return std::nullopt;
   }
@@ -77,7 +77,7 @@ Result<ExampleSource> open_examples(const ExampleOptions& options) {
     }
     all.cues = std::move(cues).value();
   }
-  const auto splits = sim::load_splits(scenarios / "splits.toml");
+  const auto splits = families::load_splits(scenarios / "splits.toml");
   if (!splits.has_value()) {
     return splits.error();
   }
@@ -124,9 +124,9 @@ namespace {
 memory::PolicyHarms expected_by(const intent::CueLaw& law, const eval::AtFirstTrigger& now,
                                 preview::ForecastTools tools) {
   tools.cues = &law;
-  const decide::Verdict verdict = decide::Forecaster(tools).judge(now.seen, now.beliefs);
+  const reflex::Verdict verdict = arbitration::Forecaster(tools).judge(now.seen, now.beliefs);
   memory::PolicyHarms harms;
-  for (const decide::JudgedPlan& one : verdict.plans) {
+  for (const reflex::JudgedPlan& one : verdict.plans) {
     auto& harm = harms.at(manoeuvre::index(one.plan.policy));
     if (one.drivable && one.harm < harm.value_or(std::numeric_limits<double>::infinity())) {
       harm = one.harm;
@@ -136,10 +136,10 @@ memory::PolicyHarms expected_by(const intent::CueLaw& law, const eval::AtFirstTr
 }
 
 /// Adds the example of one encounter, where its trigger fires.
-void add_example(DrawnExamples& all, const sim::Scenario& drawn, ReplyExample example,
+void add_example(DrawnExamples& all, const scenario::Scenario& drawn, ReplyExample example,
                  const ExampleSource& source, const ExampleOptions& options, std::uint64_t seed) {
   const Inputs& inputs = source.planes->inputs;
-  const sim::Scenario world = case_world(drawn, seed);
+  const scenario::Scenario world = case_world(drawn, seed);
   const preview::ForecastTools& tools = source.planes->setup.forecast;
   auto played = eval::at_first_trigger(
       case_stage(world, inputs, seed, example.record + (example.is_twin ? "_twin" : "")), tools);

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "apps/saca/planes_making.h"
-#include "saca/core/result.h"
-#include "saca/eval/crash_case.h"
-#include "saca/eval/reply_example.h"
-#include "saca/memory/case.h"
-#include "saca/memory/experience.h"
+#include "saca/base/core/result.h"
+#include "saca/lab/eval/crash_case.h"
+#include "saca/lab/eval/reply_example.h"
+#include "saca/thinking/memory/case.h"
+#include "saca/thinking/memory/experience.h"
 
 namespace saca::app {
 
@@ -41,7 +41,7 @@ class ToldCases {
  private:
   std::vector<memory::Case> cases_;
   memory::Experience experience_;
-  std::unordered_map<memory::CaseId, std::size_t> place_of_;
+  std::unordered_map<match::CaseId, std::size_t> place_of_;
 };
 
 /// The cases that examples are made of, and what with.
@@ -51,8 +51,9 @@ struct ExampleSource {
   int test_only = 0;                   ///< left out: of a family that only the test split has
   std::unique_ptr<const PlanesOfCar> planes;
   std::optional<ToldCases> told;
-  std::optional<sim::FamilyCues> cues;  ///< that the encounters have, with the law of what comes
-  std::uint64_t digest = 0;             ///< of all that examples depend on, but for the options
+  std::optional<families::FamilyCues>
+      cues;                  ///< that the encounters have, with the law of what comes
+  std::uint64_t digest = 0;  ///< of all that examples depend on, but for the options
 };
 /// @return  an error that names the file, or says that nothing in it can be an example
 [[nodiscard]] Result<ExampleSource> open_examples(const ExampleOptions& options);

@@ -15,11 +15,11 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/version.h"
-#include "saca/config/json_lines.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/reply_example.h"
-#include "saca/reason/prompt.h"
-#include "saca/reason/token_bound.h"
+#include "saca/base/config/json_lines.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/reply_example.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/token_bound.h"
 
 namespace saca::app {
 namespace {
@@ -73,7 +73,8 @@ SetTallies tallied(const std::vector<ReplyExample>& examples) {
     ++tally.examples;
     tally.twins += one.is_twin ? 1 : 0;
     tally.choosable += one.admissible.count() > 1 ? 1 : 0;
-    tally.tokens += reason::tokens_at_most(one.prompt) + reason::tokens_at_most(one.reply);
+    tally.tokens +=
+        language_model::tokens_at_most(one.prompt) + language_model::tokens_at_most(one.reply);
     ++tally.families[one.family];
     ++tally.choices[std::string(name(one.choice))];
   }
@@ -139,7 +140,7 @@ std::optional<Error> write_sets(const std::vector<ReplyExample>& examples,
                                 const ExampleSource& with, const CasesExportOptions& options,
                                 const std::string& card) {
   const std::filesystem::path folder = options.output;
-  const std::string system = reason::system_part(with.planes->inputs.harm);
+  const std::string system = language_model::system_part(with.planes->inputs.harm);
   for (const ExampleSet set : eval::all_example_sets) {
     std::string lines;
     std::size_t count = 0;

@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
-#include "saca/core/fnv.h"
-#include "saca/crash_records/facts.h"
-#include "saca/eval/suite.h"
-#include "saca/loop/learnt_case.h"
+#include "saca/base/config/json_reader.h"
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/fnv.h"
+#include "saca/lab/crash_records/facts.h"
+#include "saca/lab/encounter/learnt_case.h"
+#include "saca/lab/eval/suite.h"
 
 namespace saca::app {
 
@@ -67,13 +67,13 @@ std::uint64_t CaseMaking::digest() const {
       hash.add(fmt::format("{} {} {} {}", key, range.min, range.max, range.source));
     }
   }
-  for (const sim::HundredCarOutcome& event : sources_.events) {
-    hash.add(sim::write_scenario(event.rebuilt()->scenario));
+  for (const importers::HundredCarOutcome& event : sources_.events) {
+    hash.add(scenario::write_scenario(event.rebuilt()->scenario));
   }
   return hash.value();
 }
 
-sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed) {
+scenario::Scenario case_world(const scenario::Scenario& drawn, std::uint64_t seed) {
   return eval::as_played(drawn, {.methods = {}, .seed = seed});
 }
 
@@ -83,8 +83,8 @@ std::uint64_t number_of_record(const std::string& name) {
   return hash.value();
 }
 
-loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs, std::uint64_t seed,
-                       const std::string& name) {
+encounter::Stage case_stage(const scenario::Scenario& world, const Inputs& inputs,
+                            std::uint64_t seed, const std::string& name) {
   return {.scenario = &world,
           .car = &inputs.car,
           .harm = &inputs.harm,
@@ -93,9 +93,10 @@ loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs, std::ui
           .chance = eval::chance_of({.methods = {}, .seed = seed}, number_of_record(name))};
 }
 
-void CaseMaking::judge(CaseRow& row, eval::CrashCase made, const sim::Scenario& scenario) const {
-  const sim::Scenario world = case_world(scenario, options_.seed);
-  const loop::Stage stage = case_stage(world, planes_.inputs, options_.seed, made.record.name);
+void CaseMaking::judge(CaseRow& row, eval::CrashCase made,
+                       const scenario::Scenario& scenario) const {
+  const scenario::Scenario world = case_world(scenario, options_.seed);
+  const encounter::Stage stage = case_stage(world, planes_.inputs, options_.seed, made.record.name);
   eval::JudgingOptions judging = options_.judging;
   judging.seed = eval::encounter_seed(options_.seed, number_of_record(made.record.name));
   auto judged = eval::judged_encounter(stage, planes_.setup.forecast, judging, made_with_);
@@ -145,8 +146,8 @@ CaseRow CaseMaking::row_of(const CrashProspect& prospect) const {
   return row;
 }
 
-CaseRow CaseMaking::row_of(const sim::HundredCarOutcome& event) const {
-  sim::Scenario scenario = event.rebuilt()->scenario;
+CaseRow CaseMaking::row_of(const importers::HundredCarOutcome& event) const {
+  scenario::Scenario scenario = event.rebuilt()->scenario;
   scenario.car = planes_.inputs.car_name;
   const auto as_written =
       eval::trigger_as_written(scenario, planes_.inputs.car, planes_.inputs.harm);

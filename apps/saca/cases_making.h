@@ -8,9 +8,9 @@
 
 #include "apps/saca/cases_sources.h"
 #include "apps/saca/planes_making.h"
-#include "saca/eval/crash_case.h"
-#include "saca/eval/crash_search.h"
-#include "saca/memory/case.h"
+#include "saca/lab/eval/crash_case.h"
+#include "saca/lab/eval/crash_search.h"
+#include "saca/thinking/memory/case.h"
 
 namespace saca::app {
 
@@ -31,11 +31,11 @@ struct CaseRow {
 [[nodiscard]] std::uint64_t number_of_record(const std::string& name);
 
 /// @param drawn  as its family or record has it
-[[nodiscard]] sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed);
+[[nodiscard]] scenario::Scenario case_world(const scenario::Scenario& drawn, std::uint64_t seed);
 /// @param world   outlives the stage, as do the inputs
 /// @param name    of the record, or of its twin
-[[nodiscard]] loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs,
-                                     std::uint64_t seed, const std::string& name);
+[[nodiscard]] encounter::Stage case_stage(const scenario::Scenario& world, const Inputs& inputs,
+                                          std::uint64_t seed, const std::string& name);
 
 /// How cases are made of records.
 struct CaseMakingOptions {
@@ -59,8 +59,8 @@ class CaseMaking {
 
  private:
   [[nodiscard]] CaseRow row_of(const CrashProspect& prospect) const;
-  [[nodiscard]] CaseRow row_of(const sim::HundredCarOutcome& event) const;
-  void judge(CaseRow& row, eval::CrashCase made, const sim::Scenario& scenario) const;
+  [[nodiscard]] CaseRow row_of(const importers::HundredCarOutcome& event) const;
+  void judge(CaseRow& row, eval::CrashCase made, const scenario::Scenario& scenario) const;
 
   const CaseMakingOptions& options_;
   const CaseSources& sources_;

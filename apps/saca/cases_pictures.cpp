@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "apps/saca/pictures.h"
-#include "saca/crash_records/record_family.h"
-#include "saca/eval/decision_point.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/preview/expected_harm.h"
+#include "saca/lab/crash_records/record_family.h"
+#include "saca/lab/eval/decision_point.h"
+#include "saca/onboard/manoeuvre/ego.h"
+#include "saca/thinking/preview/expected_harm.h"
 
 namespace saca::app {
 namespace {
@@ -21,7 +21,7 @@ using manoeuvre::PolicyId;
 
 /// The instant from which the pictures go on.
 struct ShownMoment {
-  std::unique_ptr<sim::Scenario> scenario;  ///< that the moment refers to; of a recording none
+  std::unique_ptr<scenario::Scenario> scenario;  ///< that the moment refers to; of a recording none
   eval::DecisionPoint point;
 };
 
@@ -40,8 +40,9 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
   if (!again.has_value()) {
     return again.error();
   }
-  ShownMoment shown{.scenario = std::make_unique<sim::Scenario>(std::move(again).value().scenario),
-                    .point = {}};
+  ShownMoment shown{
+      .scenario = std::make_unique<scenario::Scenario>(std::move(again).value().scenario),
+      .point = {}};
   const auto time = eval::trigger_time(*shown.scenario, inputs.car);
   if (!time) {
     return Error{Error::Code::out_of_range,
@@ -54,14 +55,14 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
 }
 
 /// The plan among those that were tried, else the first of its policy.
-const loop::Hindsight& tried_plan(const std::vector<loop::Hindsight>& tried,
-                                  const manoeuvre::Plan& plan) {
-  const auto same = std::find_if(tried.begin(), tried.end(), [&](const loop::Hindsight& one) {
+const encounter::Hindsight& tried_plan(const std::vector<encounter::Hindsight>& tried,
+                                       const manoeuvre::Plan& plan) {
+  const auto same = std::find_if(tried.begin(), tried.end(), [&](const encounter::Hindsight& one) {
     return one.facts.plan == plan;
   });
   return same != tried.end()
              ? *same
-             : *std::find_if(tried.begin(), tried.end(), [&](const loop::Hindsight& one) {
+             : *std::find_if(tried.begin(), tried.end(), [&](const encounter::Hindsight& one) {
                  return one.facts.plan.policy == plan.policy;
                });
 }
@@ -178,7 +179,8 @@ Result<report::GalleryCard> case_card(const CrashCase& one, const Inputs& inputs
     return shown.error();
   }
   const eval::DecisionPoint& point = shown.value().point;
-  const auto tried = std::move(loop::all_plans_tried({&point, 1}, inputs.car, inputs.harm).front());
+  const auto tried =
+      std::move(encounter::all_plans_tried({&point, 1}, inputs.car, inputs.harm).front());
   report::GalleryCard card{.title = title_of(one), .lines = {without_text(one)}};
   card.lines.push_back(fmt::format("{:.1f} m/s, grip {:.2f}; best over the draws: {}.",
                                    norm(point.scene.ego.v_B), one.grip,

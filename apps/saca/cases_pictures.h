@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/eval/crash_case.h"
-#include "saca/report/suite_page.h"
+#include "saca/lab/eval/crash_case.h"
+#include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
 

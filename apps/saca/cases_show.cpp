@@ -13,9 +13,9 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/config/compressed_text.h"
-#include "saca/core/file.h"
-#include "saca/sim/chance.h"
+#include "saca/base/config/compressed_text.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/scenario/chance.h"
 
 namespace saca::app {
 namespace {
@@ -42,7 +42,7 @@ bool is_asked_for(const CrashCase& one, const CasesShowOptions& options) {
 /// So many of them, drawn evenly, in the file's order.
 std::vector<CrashCase> drawn_cases(std::vector<CrashCase> cases, const CasesShowOptions& options) {
   std::erase_if(cases, [&](const CrashCase& one) { return !is_asked_for(one, options); });
-  std::mt19937_64 rng = sim::generator(options.seed, cases.size());
+  std::mt19937_64 rng = scenario::generator(options.seed, cases.size());
   std::vector<CrashCase> drawn;
   drawn.reserve(static_cast<std::size_t>(options.count));
   std::sample(cases.begin(), cases.end(), std::back_inserter(drawn), options.count, rng);

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "apps/saca/progress.h"
-#include "saca/crash_records/record_family.h"
+#include "saca/lab/crash_records/record_family.h"
 
 namespace saca::app {
 namespace {
@@ -59,13 +59,13 @@ std::vector<CrashProspect> in_turn(std::vector<CrashProspect> all, std::size_t m
 }
 
 std::optional<Error> take_events(CaseSources& sources, const std::string& folder) {
-  auto outcomes =
-      sim::import_hundred_cars(folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
+  auto outcomes = importers::import_hundred_cars(
+      folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
   if (!outcomes.has_value()) {
     return outcomes.error();
   }
-  std::vector<sim::HundredCarOutcome> all = std::move(outcomes).value();
-  for (sim::HundredCarOutcome& outcome : all) {
+  std::vector<importers::HundredCarOutcome> all = std::move(outcomes).value();
+  for (importers::HundredCarOutcome& outcome : all) {
     if (outcome.rebuilt() != nullptr) {
       sources.events.push_back(std::move(outcome));
     }

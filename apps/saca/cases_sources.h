@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/crash_records/fars.h"
-#include "saca/crash_records/fars_codes.h"
-#include "saca/crash_records/roles.h"
-#include "saca/sim/family.h"
-#include "saca/sim/hundred_car_release.h"
+#include "saca/lab/crash_records/fars.h"
+#include "saca/lab/crash_records/fars_codes.h"
+#include "saca/lab/crash_records/roles.h"
+#include "saca/lab/families/family.h"
+#include "saca/lab/importers/hundred_car_release.h"
 
 namespace saca::app {
 
@@ -19,7 +19,7 @@ namespace saca::app {
 struct CrashProspect {
   std::size_t crash = 0;  ///< index into the release
   crash_records::Roles roles;
-  sim::Family family;
+  families::Family family;
 };
 
 /// How many crashes of one family there are, and why no encounter is made of some.
@@ -36,7 +36,7 @@ struct CaseSources {
   crash_records::FarsCodes codes;
   std::vector<CrashProspect> prospects;  ///< in the order in which they are worked on
   std::array<CrashCount, crash_records::num_crash_families> counts;  ///< by CrashFamily
-  std::vector<sim::HundredCarOutcome> events;  ///< of the 100-Car study that were rebuilt
+  std::vector<importers::HundredCarOutcome> events;  ///< of the 100-Car study that were rebuilt
 };
 
 /// Reads releases of FARS, and of the 100-Car study.

@@ -13,9 +13,9 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
-#include "saca/core/file.h"
-#include "saca/core/proportion.h"
-#include "saca/eval/cue_forecast.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/proportion.h"
+#include "saca/lab/eval/cue_forecast.h"
 
 namespace saca::app {
 namespace {

@@ -4,16 +4,16 @@
 
 #include <utility>
 
-#include "saca/core/file.h"
-#include "saca/danger/learned.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/learned_danger/learned.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 
-Result<danger::Network> read_danger_network(const std::string& path) {
+Result<learned_danger::Network> read_danger_network(const std::string& path) {
   const auto tensors = config::read_tensor_file(path, many_bytes);
-  return tensors.has_value() ? danger::Network::from(tensors.value(), path)
-                             : Result<danger::Network>(tensors.error());
+  return tensors.has_value() ? learned_danger::Network::from(tensors.value(), path)
+                             : Result<learned_danger::Network>(tensors.error());
 }
 
 Result<DangerWeights> read_danger_weights(const std::string& path) {
@@ -21,7 +21,7 @@ Result<DangerWeights> read_danger_weights(const std::string& path) {
   if (!tensors.has_value()) {
     return tensors.error();
   }
-  auto network = danger::Network::from(tensors.value(), path);
+  auto network = learned_danger::Network::from(tensors.value(), path);
   if (!network.has_value()) {
     return network.error();
   }
@@ -35,7 +35,7 @@ Result<DangerWeights> read_danger_weights(const std::string& path) {
     return inputs.error();
   }
   const auto vehicle = words.find("vehicle");
-  const std::string own = danger::vehicle_word(inputs.value().car);
+  const std::string own = learned_danger::vehicle_word(inputs.value().car);
   if (vehicle != words.end() && vehicle->second != own) {
     return Error{Error::Code::malformed,
                  fmt::format("{}: want weights of the car {} as its file is now ({}), got {}: its "

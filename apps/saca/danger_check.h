@@ -10,20 +10,20 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/config/tensors.h"
-#include "saca/core/fnv.h"
-#include "saca/core/parallel.h"
-#include "saca/core/result.h"
-#include "saca/danger/check.h"
-#include "saca/danger/network.h"
-#include "saca/world/footprint.h"
+#include "saca/base/config/tensors.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/parallel.h"
+#include "saca/base/core/result.h"
+#include "saca/base/world/footprint.h"
+#include "saca/lab/learned_danger/check.h"
+#include "saca/lab/learned_danger/network.h"
 
 namespace saca::app {
 
 /// What a file of weights says, and the car that it is of.
 struct DangerWeights {
   config::Tensors tensors;
-  danger::Network network;
+  learned_danger::Network network;
   std::string car_name;
   Inputs inputs;
   world::Footprint body;  ///< of the car, about its centre of mass
@@ -48,7 +48,7 @@ template <class Case>
 }
 
 /// Without a look at its car: weights of a point mass have none.
-[[nodiscard]] Result<danger::Network> read_danger_network(const std::string& path);
+[[nodiscard]] Result<learned_danger::Network> read_danger_network(const std::string& path);
 
 /// `saca danger check`.
 void add_danger_check(CLI::App& danger, int& exit_code);

@@ -18,18 +18,18 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/check.h"
-#include "saca/danger/margins.h"
-#include "saca/danger/network.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/check.h"
+#include "saca/lab/learned_danger/margins.h"
+#include "saca/lab/learned_danger/network.h"
 
 namespace saca::app {
 namespace {
 
-using danger::CheckedCase;
-using danger::CheckFigures;
-using danger::Share;
+using learned_danger::CheckedCase;
+using learned_danger::CheckFigures;
+using learned_danger::Share;
 using nlohmann::json;
 
 struct DangerCheckOptions {
@@ -43,16 +43,16 @@ struct DangerCheckOptions {
 std::vector<CheckedCase> in_bin(const std::vector<CheckedCase>& all, std::size_t bin) {
   std::vector<CheckedCase> some;
   std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const CheckedCase& one) {
-    return danger::bin_of(one.is_straight, one.speed, one.grip, one.num_obstacles) == bin;
+    return learned_danger::bin_of(one.is_straight, one.speed, one.grip, one.num_obstacles) == bin;
   });
   return some;
 }
 
 /// How long a value takes, of 32 that are asked for at once [us].
-double microseconds_of_value(const danger::Network& network, const SteadyClock& clock) {
-  constexpr std::size_t count = danger::Network::at_once;
+double microseconds_of_value(const learned_danger::Network& network, const SteadyClock& clock) {
+  constexpr std::size_t count = learned_danger::Network::at_once;
   constexpr int times = 2'000;
-  const std::vector<danger::SeenByNet> seen(count);
+  const std::vector<learned_danger::SeenByNet> seen(count);
   std::vector<double> v(count);
   const auto start = clock.now();
   for (int i = 0; i < times; ++i) {
@@ -71,7 +71,7 @@ json figures_json(const std::string& place, const CheckFigures& figures) {
   };
   add("hit_given_told_safe", figures.hit_given_told_safe);
   all[place + "hit_given_told_safe.hi"] =
-      danger::upper_bound(figures.hit_given_told_safe, danger::margin_confidence);
+      learned_danger::upper_bound(figures.hit_given_told_safe, learned_danger::margin_confidence);
   add("hit_given_just_safe", figures.hit_given_just_safe);
   add("told_safe_given_hit", figures.told_safe_given_hit);
   add("false_alarm", figures.false_alarms);
@@ -91,7 +91,8 @@ void tell_danger_row(const std::string& name, const std::string& margin,
   app::print(
       "{:42} {:>7} {:9.3f} {:9.3f} {:9.3f} {:9.2f} {:9.2f} {:9.2f} {:8.3f} {:8.3f} {:8.3f}\n", name,
       margin, 100.0 * figures.hit_given_told_safe.value(),
-      100.0 * danger::upper_bound(figures.hit_given_told_safe, danger::margin_confidence),
+      100.0 * learned_danger::upper_bound(figures.hit_given_told_safe,
+                                          learned_danger::margin_confidence),
       100.0 * figures.hit_given_just_safe.value(), 100.0 * figures.told_safe_given_hit.value(),
       100.0 * figures.false_alarms.value(), 100.0 * figures.agreeing_near.value(),
       figures.mean_error_near, figures.bias_near, figures.lost_near);
@@ -105,8 +106,8 @@ void tell_head() {
              "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "[m]", "[m]", "[m]");
 }
 
-void tell(const std::vector<CheckedCase>& situations, const std::optional<danger::Margins>& margins,
-          bool as_json, json all) {
+void tell(const std::vector<CheckedCase>& situations,
+          const std::optional<learned_danger::Margins>& margins, bool as_json, json all) {
   if (!as_json) {
     tell_head();
   }
@@ -122,18 +123,19 @@ void tell(const std::vector<CheckedCase>& situations, const std::optional<danger
     return figures;
   };
   add("all, no margin", "danger.net.plain.", "0",
-      danger::figures_of(situations, [](const CheckedCase&) { return 0.0; }));
+      learned_danger::figures_of(situations, [](const CheckedCase&) { return 0.0; }));
   if (margins) {
-    for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
+    for (std::size_t bin = 0; bin < learned_danger::num_bins; ++bin) {
       const std::vector<CheckedCase> some = in_bin(situations, bin);
-      const std::string& name = danger::bin_names()[bin];
+      const std::string& name = learned_danger::bin_names()[bin];
       const double margin = margins->metres()[bin];
       all["danger.net." + name + ".margin_m"] = margin;
       add(name, "danger.net." + name + ".",
-          margin < danger::Margins::none ? fmt::format("{:.2f}", margin) : "none",
-          danger::figures_of(some, margin_of));
+          margin < learned_danger::Margins::none ? fmt::format("{:.2f}", margin) : "none",
+          learned_danger::figures_of(some, margin_of));
     }
-    add("all, each with its margin", "danger.net.", "", danger::figures_of(situations, margin_of));
+    add("all, each with its margin", "danger.net.", "",
+        learned_danger::figures_of(situations, margin_of));
   }
   for (const auto& [name, place, is_one] :
        {std::tuple{"one obstacle", "one", true}, {"several obstacles", "several", false}}) {
@@ -141,13 +143,14 @@ void tell(const std::vector<CheckedCase>& situations, const std::optional<danger
     std::copy_if(
         situations.begin(), situations.end(), std::back_inserter(some),
         [one = is_one](const CheckedCase& each) { return (each.num_obstacles == 1) == one; });
-    add(name, fmt::format("danger.net.{}.", place), "", danger::figures_of(some, margin_of));
+    add(name, fmt::format("danger.net.{}.", place), "",
+        learned_danger::figures_of(some, margin_of));
   }
   if (as_json) {
     print_json(all);
     return;
   }
-  const CheckFigures figures = danger::figures_of(situations, margin_of);
+  const CheckFigures figures = learned_danger::figures_of(situations, margin_of);
   app::print(
       "\npincers, which each obstacle alone leaves a way out of: {} of {} situations with several "
       "obstacles; told unsafe {}, by the highest single value {}\n",
@@ -163,7 +166,7 @@ int check_danger(const DangerCheckOptions& options) {
     return refused(read.error());
   }
   const DangerWeights& weights = read.value();
-  const auto margins = danger::Margins::from(weights.network.words(), options.weights);
+  const auto margins = learned_danger::Margins::from(weights.network.words(), options.weights);
   if (!margins.has_value()) {
     return refused(margins.error());
   }
@@ -176,7 +179,7 @@ int check_danger(const DangerCheckOptions& options) {
       const auto more = checked_situations<CheckedCase>(
           "check", done, std::min(situations_at_once, options.situations - done), options.threads,
           options.seed, [&](std::uint64_t seed) {
-            return danger::checked(weights.inputs.car, weights.body, weights.network, seed);
+            return learned_danger::checked(weights.inputs.car, weights.body, weights.network, seed);
           });
       all.insert(all.end(), more.begin(), more.end());
       line.show(static_cast<int>(all.size()), 0, " situations");

@@ -23,19 +23,19 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/core/journal.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/transition_file.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/journal.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/transition_file.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using danger::Part;
+using learned_danger::Part;
 using nlohmann::json;
 
 struct DatasetOptions {
@@ -104,8 +104,8 @@ std::string card(const DatasetOptions& options, const PartLine& all) {
 /// Parts, one after another, until there are enough transitions; those of the journal are kept.
 class Making {
  public:
-  Making(const DatasetOptions& options, const Inputs& inputs, const reach::DangerModel& model,
-         const danger::Network* network, Journal journal)
+  Making(const DatasetOptions& options, const Inputs& inputs, const danger::DangerModel& model,
+         const learned_danger::Network* network, Journal journal)
       : options_(options),
         inputs_(inputs),
         model_(model),
@@ -170,21 +170,21 @@ class Making {
       seed.add(fmt::format("{} {}", options_.seed, missing[i]));
       part.seed = seed.value();
       if (options_.outcomes) {
-        part.mixture = danger::mixture_of_outcomes();
+        part.mixture = learned_danger::mixture_of_outcomes();
       }
-      part.transitions =
-          danger::made_transitions(inputs_.car, manoeuvre::footprint(inputs_.car), model_,
-                                   part.mixture, options_.drives_per_part, part.seed, network_);
+      part.transitions = learned_danger::made_transitions(
+          inputs_.car, manoeuvre::footprint(inputs_.car), model_, part.mixture,
+          options_.drives_per_part, part.seed, network_);
     });
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (all_until(missing[i]).transitions >= options_.transitions) {
         break;  // how many are made at a time is nothing to whoever reads them
       }
       const fs::path file = file_of(options_, missing[i]);
-      if (auto problem = danger::write_part(file, parts[i])) {
+      if (auto problem = learned_danger::write_part(file, parts[i])) {
         return problem;
       }
-      const danger::Transitions& all = parts[i].transitions;
+      const learned_danger::Transitions& all = parts[i].transitions;
       const PartLine one{
           static_cast<std::int64_t>(all.size()), static_cast<std::int64_t>(all.drives),
           static_cast<std::int64_t>(all.situations), static_cast<std::int64_t>(all.near),
@@ -199,8 +199,8 @@ class Making {
 
   const DatasetOptions& options_;
   const Inputs& inputs_;
-  const reach::DangerModel& model_;
-  const danger::Network* network_;
+  const danger::DangerModel& model_;
+  const learned_danger::Network* network_;
   Journal journal_;
   std::map<std::size_t, PartLine> made_;
 };
@@ -229,7 +229,7 @@ int make_dataset(const DatasetOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  std::optional<danger::Network> network;
+  std::optional<learned_danger::Network> network;
   if (!options.by.empty()) {
     auto read = read_danger_weights(options.by);
     if (!read.has_value()) {
@@ -251,7 +251,7 @@ int make_dataset(const DatasetOptions& options) {
       journal_file,
       fmt::format("saca.transitions/1, car {}, seed {}, {} drives a part, {} features{}",
                   inputs.value().car_name, options.seed, options.drives_per_part,
-                  danger::num_features, options.no_tables ? ", no tables" : "") +
+                  learned_danger::num_features, options.no_tables ? ", no tables" : "") +
           (network ? fmt::format(", by {:016x}", network->digest()) : "") +
           (options.outcomes ? ", outcomes" : ""));
   if (!journal.has_value()) {

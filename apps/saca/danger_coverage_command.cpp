@@ -14,18 +14,18 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/coverage.h"
-#include "saca/danger/transition_file.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/reach/car_limits.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/coverage.h"
+#include "saca/lab/learned_danger/transition_file.h"
+#include "saca/onboard/manoeuvre/ego.h"
+#include "saca/thinking/danger/car_limits.h"
 
 namespace saca::app {
 namespace {
 
-using danger::Coverage;
-using danger::CoverageSurvey;
+using learned_danger::Coverage;
+using learned_danger::CoverageSurvey;
 using nlohmann::json;
 
 struct CoverageOptions {
@@ -46,7 +46,7 @@ std::optional<Error> read_rest(CoverageSurvey& survey, const std::string& car,
     if (interrupted()) {
       return Error{Error::Code::too_late, "interrupted"};
     }
-    const auto part = danger::read_part_of(files[i], car);
+    const auto part = learned_danger::read_part_of(files[i], car);
     if (!part.has_value()) {
       return part.error();
     }
@@ -85,11 +85,11 @@ void tell(const CoverageOptions& options, const std::string& car,
 
 int tell_coverage(const CoverageOptions& options) {
   watch_for_interrupt();
-  const auto files = danger::part_files(options.folder);
+  const auto files = learned_danger::part_files(options.folder);
   if (!files.has_value()) {
     return refused(files.error());
   }
-  const auto first = danger::read_part(files.value().front());
+  const auto first = learned_danger::read_part(files.value().front());
   if (!first.has_value()) {
     return refused(first.error());
   }
@@ -101,7 +101,7 @@ int tell_coverage(const CoverageOptions& options) {
   if (!model.has_value()) {
     return refused(model.error());
   }
-  CoverageSurvey survey(reach::avoidance_of(inputs.value().car, 1.0),
+  CoverageSurvey survey(danger::avoidance_of(inputs.value().car, 1.0),
                         manoeuvre::footprint(inputs.value().car), model.value(),
                         static_cast<std::size_t>(options.states),
                         static_cast<std::size_t>(options.others));

@@ -18,37 +18,37 @@
 #include "apps/saca/danger_check.h"
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/learned.h"
-#include "saca/danger/margins.h"
-#include "saca/danger/network.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/reach/car_limits.h"
-#include "saca/reach/danger_cases.h"
-#include "saca/reach/solve.h"
-#include "saca/reach/value_file.h"
-#include "saca/sim/traffic.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/learned.h"
+#include "saca/lab/learned_danger/margins.h"
+#include "saca/lab/learned_danger/network.h"
+#include "saca/lab/levelset/solve.h"
+#include "saca/lab/sim/traffic.h"
+#include "saca/onboard/manoeuvre/ego.h"
+#include "saca/thinking/danger/car_limits.h"
+#include "saca/thinking/danger/danger_cases.h"
+#include "saca/thinking/danger/value_file.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using reach::Solution;
+using danger::Solution;
 
 constexpr double table_grip = 0.9;  // dry: all others follow by scaling
 
 /// Bodies of all actors, each with the highest speed that it has while the ego stands at its start.
-std::vector<reach::ObstacleKind> to_be_judged(const sim::Scenario& scenario,
-                                              const world::Footprint& ego) {
-  std::vector<reach::ObstacleKind> found;
+std::vector<danger::ObstacleKind> to_be_judged(const scenario::Scenario& scenario,
+                                               const world::Footprint& ego) {
+  std::vector<danger::ObstacleKind> found;
   const auto note = [&](const world::Actor& actor) {
     found.push_back({actor.footprint, norm(actor.v_W)});
   };
   const Pose X_WB =
-      std::holds_alternative<sim::EgoStart>(scenario.ego)
-          ? world::from_lane(scenario.road, std::get<sim::EgoStart>(scenario.ego).pose)
-          : std::get<sim::Recording>(scenario.ego).front().X_WA;
+      std::holds_alternative<scenario::EgoStart>(scenario.ego)
+          ? world::from_lane(scenario.road, std::get<scenario::EgoStart>(scenario.ego).pose)
+          : std::get<scenario::Recording>(scenario.ego).front().X_WA;
   sim::Traffic traffic(scenario);
   for (int k = 0; traffic.time() <= scenario.duration; ++k) {
     if (k % 10 == 0) {
@@ -64,14 +64,14 @@ std::vector<reach::ObstacleKind> to_be_judged(const sim::Scenario& scenario,
   return found;
 }
 
-std::optional<Solution> kept_table(const fs::path& file, const reach::DangerCase& wanted) {
-  auto there = reach::read_solved(file);
+std::optional<Solution> kept_table(const fs::path& file, const danger::DangerCase& wanted) {
+  auto there = danger::read_solved(file);
   if (!there.has_value()) {
     return std::nullopt;
   }
   const Solution& kept = there.value();
   const bool right = kept.complete && !kept.error.empty() && kept.problem == wanted.asked.text &&
-                     kept.scheme == reach::described(reach::danger_scheme(usual_threads()));
+                     kept.scheme == levelset::described(levelset::danger_scheme(usual_threads()));
   return right ? std::optional(std::move(there).value()) : std::nullopt;
 }
 
@@ -100,13 +100,13 @@ class FolderHold {
   int folder_;
 };
 
-Result<Solution> solved_now(const reach::DangerCase& wanted) {
-  const reach::Problem problem = reach::avoidance_problem(wanted.asked);
+Result<Solution> solved_now(const danger::DangerCase& wanted) {
+  const levelset::Problem problem = levelset::avoidance_problem(wanted.asked);
   SteadyClock clock;
   constexpr int permille = 1'000;
   ProgressLine line("danger of " + wanted.name, permille, clock);
-  return reach::solve(
-      problem, reach::danger_scheme(usual_threads()), std::nullopt, {.step = [&](double tau) {
+  return levelset::solve(
+      problem, levelset::danger_scheme(usual_threads()), std::nullopt, {.step = [&](double tau) {
         line.show(static_cast<int>(permille * tau / problem.times.back()), 0, " per mille");
         return true;
       }});
@@ -114,22 +114,22 @@ Result<Solution> solved_now(const reach::DangerCase& wanted) {
 
 }  // namespace
 
-Result<std::vector<reach::DangerCase>> tables_for(const Inputs& inputs, double grip,
-                                                  const std::vector<reach::ObstacleKind>& bodies) {
-  auto cases = reach::danger_cases(reach::avoidance_of(inputs.car, table_grip),
-                                   manoeuvre::footprint(inputs.car), grip, bodies);
+Result<std::vector<danger::DangerCase>> tables_for(
+    const Inputs& inputs, double grip, const std::vector<danger::ObstacleKind>& bodies) {
+  auto cases = danger::danger_cases(danger::avoidance_of(inputs.car, table_grip),
+                                    manoeuvre::footprint(inputs.car), grip, bodies);
   if (!cases.has_value()) {
     return Error{cases.error().code, inputs.car_name + ": " + cases.error().message};
   }
   return cases;
 }
 
-Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs) {
-  return tables_for(inputs, sim::believed_grip(inputs.scenario),
+Result<std::vector<danger::DangerCase>> needed_tables(const ScenarioInputs& inputs) {
+  return tables_for(inputs, scenario::believed_grip(inputs.scenario),
                     to_be_judged(inputs.scenario, manoeuvre::footprint(inputs.car)));
 }
 
-Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted) {
+Result<ReadyTable> ready_table(const Inputs& inputs, const danger::DangerCase& wanted) {
   const fs::path file = danger_place(inputs.places, inputs.car_name, wanted.name);
   if (auto kept = kept_table(file, wanted)) {
     return ReadyTable{.table = *std::move(kept), .file = file, .was_there = true};
@@ -144,17 +144,17 @@ Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wa
     return solved.error();
   }
   if (!not_kept) {
-    not_kept = reach::write_solved(file, solved.value());
+    not_kept = danger::write_solved(file, solved.value());
   }
   return ReadyTable{
       .table = std::move(solved).value(), .file = file, .not_kept = std::move(not_kept)};
 }
 
-Result<reach::LearnedValue> learned_danger(const Inputs& inputs) {
+Result<danger::LearnedValue> learned_danger(const Inputs& inputs) {
   const fs::path file =
       inputs.places.root / "models" / "danger" / (inputs.car_name + ".safetensors");
   if (!fs::exists(file)) {
-    return reach::LearnedValue();
+    return danger::LearnedValue();
   }
   auto network = read_danger_network(file);
   if (!network.has_value()) {
@@ -162,14 +162,14 @@ Result<reach::LearnedValue> learned_danger(const Inputs& inputs) {
   }
   const auto& words = network.value().words();
   const auto vehicle = words.find("vehicle");
-  if (vehicle == words.end() || vehicle->second != danger::vehicle_word(inputs.car)) {
+  if (vehicle == words.end() || vehicle->second != learned_danger::vehicle_word(inputs.car)) {
     complain(
         fmt::format("{}: learnt of another {} than that of today; its risks are by a few "
                     "evasions (tools/danger.sh learns V_h anew)",
                     file.string(), inputs.car_name));
-    return reach::LearnedValue();
+    return danger::LearnedValue();
   }
-  const auto margins = danger::Margins::from(words, file.string());
+  const auto margins = learned_danger::Margins::from(words, file.string());
   if (!margins.has_value()) {
     return margins.error();
   }
@@ -177,16 +177,17 @@ Result<reach::LearnedValue> learned_danger(const Inputs& inputs) {
     return Error{Error::Code::malformed,
                  file.string() + ": want margins (`saca danger margins`), got none"};
   }
-  return danger::learned_value(std::make_shared<const danger::Network>(std::move(network).value()),
-                               *margins.value(), inputs.car);
+  return learned_danger::learned_value(
+      std::make_shared<const learned_danger::Network>(std::move(network).value()), *margins.value(),
+      inputs.car);
 }
 
 namespace {
 
-Result<std::vector<reach::DangerTable>> ready_tables(const Inputs& inputs,
-                                                     const std::vector<reach::DangerCase>& cases) {
-  std::vector<reach::DangerTable> tables;
-  for (const reach::DangerCase& wanted : cases) {
+Result<std::vector<danger::DangerTable>> ready_tables(
+    const Inputs& inputs, const std::vector<danger::DangerCase>& cases) {
+  std::vector<danger::DangerTable> tables;
+  for (const danger::DangerCase& wanted : cases) {
     const auto ready = ready_table(inputs, wanted);
     if (!ready.has_value()) {
       return ready.error();
@@ -196,33 +197,33 @@ Result<std::vector<reach::DangerTable>> ready_tables(const Inputs& inputs,
     }
     const Solution& solved = ready.value().table;
     tables.push_back({*wanted.asked.obstacle, wanted.asked.system.obstacle_speed, wanted.asked.view,
-                      std::make_shared<reach::ValueTable>(
+                      std::make_shared<danger::ValueTable>(
                           solved.grid, snapshot(solved, solved.times.size() - 1), solved.error)});
   }
   return tables;
 }
 
-reach::DangerModel model_of(const Inputs& inputs, std::vector<reach::DangerTable> tables,
-                            reach::LearnedValue learned) {
-  return {reach::avoidance_of(inputs.car, table_grip), manoeuvre::footprint(inputs.car),
+danger::DangerModel model_of(const Inputs& inputs, std::vector<danger::DangerTable> tables,
+                             danger::LearnedValue learned) {
+  return {danger::avoidance_of(inputs.car, table_grip), manoeuvre::footprint(inputs.car),
           std::move(tables), std::move(learned)};
 }
 
 }  // namespace
 
-Result<reach::DangerModel> danger_by(const Inputs& inputs,
-                                     const std::vector<reach::DangerCase>& cases) {
+Result<danger::DangerModel> danger_by(const Inputs& inputs,
+                                      const std::vector<danger::DangerCase>& cases) {
   auto tables = ready_tables(inputs, cases);
   return tables.has_value() ? model_of(inputs, std::move(tables).value(), {})
-                            : Result<reach::DangerModel>(tables.error());
+                            : Result<danger::DangerModel>(tables.error());
 }
 
-Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables) {
+Result<danger::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables) {
   constexpr double most_grip = 0.9;
   const auto box = [](double length, double width) {
     return world::Footprint{.length = length, .width = width};
   };
-  std::vector<reach::ObstacleKind> bodies;  // with the speeds that tables reach
+  std::vector<danger::ObstacleKind> bodies;  // with the speeds that tables reach
   if (with_tables) {
     bodies = {{box(0.5, 0.5), 4.0},
               {box(4.5, 1.8), 30.0},
@@ -231,12 +232,12 @@ Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_table
   }
   const auto cases = tables_for(inputs, most_grip, bodies);
   return cases.has_value() ? danger_by(inputs, cases.value())
-                           : Result<reach::DangerModel>(cases.error());
+                           : Result<danger::DangerModel>(cases.error());
 }
 
-Result<std::optional<reach::DangerModel>> usual_danger(const ScenarioInputs& inputs,
-                                                       bool with_tables) {
-  using Model = std::optional<reach::DangerModel>;
+Result<std::optional<danger::DangerModel>> usual_danger(const ScenarioInputs& inputs,
+                                                        bool with_tables) {
+  using Model = std::optional<danger::DangerModel>;
   auto learned = learned_danger(inputs);
   if (!learned.has_value()) {
     return learned.error();

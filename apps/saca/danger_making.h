@@ -5,24 +5,24 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/core/result.h"
-#include "saca/reach/danger.h"
-#include "saca/reach/danger_cases.h"
-#include "saca/reach/solve.h"
+#include "saca/base/core/result.h"
+#include "saca/lab/levelset/solve.h"
+#include "saca/thinking/danger/danger.h"
+#include "saca/thinking/danger/danger_cases.h"
 
 namespace saca::app {
 
 /// The tables that these bodies need on this grip or more.
 /// @return  an error naming the car where it is beyond what a table may hold
-[[nodiscard]] Result<std::vector<reach::DangerCase>> tables_for(
-    const Inputs& inputs, double grip, const std::vector<reach::ObstacleKind>& bodies);
+[[nodiscard]] Result<std::vector<danger::DangerCase>> tables_for(
+    const Inputs& inputs, double grip, const std::vector<danger::ObstacleKind>& bodies);
 
 /// The tables that the scenario's actors need.
 /// @return  an error naming the car where it is beyond what a table may hold
-[[nodiscard]] Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs);
+[[nodiscard]] Result<std::vector<danger::DangerCase>> needed_tables(const ScenarioInputs& inputs);
 
 struct ReadyTable {
-  reach::Solution table;
+  danger::Solution table;
   std::filesystem::path file;     ///< its `danger_place`
   bool was_there = false;         ///< and right for this car; else it was solved
   std::optional<Error> not_kept;  ///< why it could not be written
@@ -31,27 +31,28 @@ struct ReadyTable {
 /// Reads a table; solves it, in seconds, with progress on the error stream, where it is not there.
 /// A program that already makes tables of this car is waited for.
 /// @return  an error where a car's limits are beyond what can be solved
-[[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted);
+[[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs,
+                                             const danger::DangerCase& wanted);
 
 /// What was learnt of this car's danger, models/danger/CAR.safetensors; none where there is no such
 /// file, or it is of a car whose numbers were changed since, which is said.
 /// @return  an error naming the file, what was wanted and what came
-[[nodiscard]] Result<reach::LearnedValue> learned_danger(const Inputs& inputs);
+[[nodiscard]] Result<danger::LearnedValue> learned_danger(const Inputs& inputs);
 
 /// With these tables, made ready, and nothing learnt.
 /// @return  likewise
-[[nodiscard]] Result<reach::DangerModel> danger_by(const Inputs& inputs,
-                                                   const std::vector<reach::DangerCase>& cases);
+[[nodiscard]] Result<danger::DangerModel> danger_by(const Inputs& inputs,
+                                                    const std::vector<danger::DangerCase>& cases);
 
-/// For the obstacles of data sets (danger/draws.h): with the tables of their bodies, made ready, or
-/// with none.
+/// For the obstacles of data sets (learned_danger/draws.h): with the tables of their bodies, made
+/// ready, or with none.
 /// @return  likewise
-[[nodiscard]] Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables);
+[[nodiscard]] Result<danger::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables);
 
 /// By what was learnt of the car, and nothing that must be waited for; where tables are wanted,
 /// with all that the scenario's actors need.
 /// @return  likewise; nullopt: no tables are wanted, and nothing was learnt of the car
-[[nodiscard]] Result<std::optional<reach::DangerModel>> usual_danger(const ScenarioInputs& inputs,
-                                                                     bool with_tables);
+[[nodiscard]] Result<std::optional<danger::DangerModel>> usual_danger(const ScenarioInputs& inputs,
+                                                                      bool with_tables);
 
 }  // namespace saca::app

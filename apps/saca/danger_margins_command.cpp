@@ -17,11 +17,11 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/config/tensors.h"
-#include "saca/core/clock.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/margins.h"
+#include "saca/base/config/tensors.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/margins.h"
 
 namespace saca::app {
 namespace {
@@ -41,13 +41,13 @@ struct MarginOptions {
 /// What was counted for margins so far: what an interrupted count goes on from.
 struct MarginCount {
   int situations = 0;
-  std::array<danger::ToldSafe, danger::num_bins> told;
+  std::array<learned_danger::ToldSafe, learned_danger::num_bins> told;
 };
 
 json count_json(const MarginCount& count, const std::string& what) {
   json all{{"schema", "saca.margins/2"}, {"of", what}, {"situations", count.situations}};
-  for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
-    all["told_safe"][danger::bin_names()[bin]] = count.told[bin].numbers();
+  for (std::size_t bin = 0; bin < learned_danger::num_bins; ++bin) {
+    all["told_safe"][learned_danger::bin_names()[bin]] = count.told[bin].numbers();
   }
   return all;
 }
@@ -75,9 +75,9 @@ Result<MarginCount> read_count(const std::string& path, const std::string& what)
   MarginCount count;
   try {
     count.situations = all.at("situations").get<int>();
-    for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
-      const auto told = danger::ToldSafe::from(
-          all.at("told_safe").at(danger::bin_names()[bin]).get<std::vector<int>>());
+    for (std::size_t bin = 0; bin < learned_danger::num_bins; ++bin) {
+      const auto told = learned_danger::ToldSafe::from(
+          all.at("told_safe").at(learned_danger::bin_names()[bin]).get<std::vector<int>>());
       if (!told) {
         return refuse("numbers that are none");
       }
@@ -98,17 +98,17 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
   const int remembered = count.situations;
   ProgressLine line("danger margins", options.situations, clock);
   while (count.situations < options.situations && !interrupted()) {
-    std::array<bool, danger::num_bins> wanted{};
+    std::array<bool, learned_danger::num_bins> wanted{};
     std::transform(count.told.begin(), count.told.end(), wanted.begin(),
-                   [](const danger::ToldSafe& told) { return told.may_have_margin(); });
-    const auto some = checked_situations<danger::MarginSample>(
+                   [](const learned_danger::ToldSafe& told) { return told.may_have_margin(); });
+    const auto some = checked_situations<learned_danger::MarginSample>(
         "margins", count.situations,
         std::min(at_once_for_margins, options.situations - count.situations), options.threads,
         options.seed, [&](std::uint64_t seed) {
-          return danger::driven_by_evasion(weights.inputs.car, weights.body, weights.network, seed,
-                                           wanted);
+          return learned_danger::driven_by_evasion(weights.inputs.car, weights.body,
+                                                   weights.network, seed, wanted);
         });
-    for (const danger::MarginSample& one : some) {
+    for (const learned_danger::MarginSample& one : some) {
       if (one.acted) {
         count.told[one.bin].add(one.told, *one.acted >= 0.0);
       }
@@ -148,15 +148,15 @@ int fit_margins(const MarginOptions& options) {
     complain("interrupted; the same command goes on from here");
     return was_interrupted;
   }
-  std::array<double, danger::num_bins> metres{};
+  std::array<double, learned_danger::num_bins> metres{};
   json all{{"meta.weights", options.weights},
            {"meta.situations", count.situations},
            {"meta.seed", std::to_string(options.seed)}};
-  for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
-    const std::string& name = danger::bin_names()[bin];
+  for (std::size_t bin = 0; bin < learned_danger::num_bins; ++bin) {
+    const std::string& name = learned_danger::bin_names()[bin];
     const auto margin = count.told[bin].margin();
-    metres[bin] = margin.value_or(danger::Margins::none);
-    const danger::Share plain = count.told[bin].hits_with(0);
+    metres[bin] = margin.value_or(learned_danger::Margins::none);
+    const learned_danger::Share plain = count.told[bin].hits_with(0);
     all["danger.net." + name + ".margin_m"] = metres[bin];
     all["danger.net." + name + ".told_safe"] = plain.of;
     if (!options.as_json) {
@@ -164,7 +164,7 @@ int fit_margins(const MarginOptions& options) {
                  margin ? fmt::format("{:.2f} m", *margin) : "none", plain.of, plain.count);
     }
   }
-  danger::Margins(metres).add_to(weights.tensors.words);
+  learned_danger::Margins(metres).add_to(weights.tensors.words);
   weights.tensors.words["margin.situations"] = std::to_string(count.situations);
   if (const auto problem = write_file(output, config::tensor_bytes(weights.tensors))) {
     return refused(*problem);

@@ -10,11 +10,11 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
-#include "saca/core/units.h"
-#include "saca/danger/net_inputs.h"
-#include "saca/danger/point_mass.h"
-#include "saca/report/beside_exact.h"
-#include "saca/report/value_map.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/learned_danger/net_inputs.h"
+#include "saca/lab/learned_danger/point_mass.h"
+#include "saca/lab/report/beside_exact.h"
+#include "saca/lab/report/value_map.h"
 
 namespace saca::app {
 namespace {
@@ -38,17 +38,17 @@ int show_danger(const DangerShowOptions& options) {
   if (!weights.has_value()) {
     return refused(weights.error());
   }
-  const auto exact = danger::read_exact_point_mass(options.table);
+  const auto exact = learned_danger::read_exact_point_mass(options.table);
   if (!exact.has_value()) {
     return refused(exact.error());
   }
   if (const auto problem = why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  const danger::PointMass& problem = exact.value().problem;
-  const auto learnt = [&](const reach::State& at) {
-    const std::array<danger::SeenByNet, 1> seen{danger::seen_by_net(problem, at)};
-    return reach::LookupResult{weights.value().joint_value(seen), 0.0, true};
+  const learned_danger::PointMass& problem = exact.value().problem;
+  const auto learnt = [&](const danger::State& at) {
+    const std::array<learned_danger::SeenByNet, 1> seen{learned_danger::seen_by_net(problem, at)};
+    return danger::LookupResult{weights.value().joint_value(seen), 0.0, true};
   };
   const std::string& text = exact.value().text;
   const auto picture =

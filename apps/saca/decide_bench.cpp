@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "saca/core/percentile.h"
-#include "saca/decide/atlas_judge.h"
-#include "saca/decide/forecaster.h"
-#include "saca/decide/reflex_plane.h"
-#include "saca/intent/observer.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/percentile.h"
+#include "saca/onboard/manoeuvre/ego.h"
+#include "saca/onboard/reflex/atlas_judge.h"
+#include "saca/onboard/reflex/reflex_plane.h"
+#include "saca/thinking/arbitration/forecaster.h"
+#include "saca/thinking/intent/observer.h"
 
 namespace saca::app {
 namespace {
@@ -76,22 +76,22 @@ void add_percentiles(const std::string& name, const std::string& suffix,
 
 /// One step: six plans and, where there is one, a verdict received, threats looked for, and where
 /// the scene triggers, matched and decided.
-void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, const Clock& clock,
+void bench_reflex(const Inputs& inputs, const atlas::Atlas& atlas, const Clock& clock,
                   int num_calls, const std::vector<world::Scene>& scenes, const std::string& suffix,
                   json& figures) {
-  decide::PlanCache plans;
-  for (std::size_t i = 0; i < decide::PlanCache::capacity(); ++i) {
-    plans.push_back({.at_trigger = memory::features(scenes[i]),
+  reflex::PlanCache plans;
+  for (std::size_t i = 0; i < reflex::PlanCache::capacity(); ++i) {
+    plans.push_back({.at_trigger = match::features(scenes[i]),
                      .plan = {manoeuvre::PolicyId::aes_left, std::nullopt}});
   }
-  decide::AtlasJudge judge(inputs.car, atlas, inputs.harm);
+  reflex::AtlasJudge judge(inputs.car, atlas, inputs.harm);
   const auto verdict = judge.judge(scenes.front());
   for (const bool fresh : {true, false}) {
     int num_triggered = 0;
     int num_judged = 0;
     const auto step = [&](std::size_t call) {
-      decide::ReflexPlane plane(
-          {.car = &inputs.car, .atlas = decide::AtlasJudge(inputs.car, atlas, inputs.harm)});
+      reflex::ReflexPlane plane(
+          {.car = &inputs.car, .atlas = reflex::AtlasJudge(inputs.car, atlas, inputs.harm)});
       const Clock::Time start = clock.now();
       plane.receive(plans);
       if (fresh && verdict) {
@@ -137,7 +137,7 @@ world::Scene crowd(const manoeuvre::Car& car, int num_actors, std::mt19937& rng)
   return scene;
 }
 
-void bench_decide(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock, int num_calls,
+void bench_decide(const Inputs& inputs, const atlas::Atlas& atlas, Clock& clock, int num_calls,
                   json& figures) {
   for (const int num_actors : {1, 8, 32}) {
     for (const bool followed : {false, true}) {
@@ -146,7 +146,7 @@ void bench_decide(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
           fmt::format(".actors{}{}", num_actors, followed ? ".followed" : "");
       bench_reflex(inputs, atlas, clock, num_calls, scenes, suffix, figures);
 
-      decide::AtlasJudge judge(inputs.car, atlas, inputs.harm);
+      reflex::AtlasJudge judge(inputs.car, atlas, inputs.harm);
       const auto judged = [&](std::size_t call) {
         const Clock::Time start = clock.now();
         (void)judge.judge(scenes[call % scenes.size()]);
@@ -155,7 +155,7 @@ void bench_decide(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
       add_percentiles("decide.atlas_judge_us", suffix,
                       times_of(clock, std::min(num_calls, 10'000), judged), figures);
 
-      const decide::Forecaster forecaster({&inputs.car, &inputs.harm, &atlas});
+      const arbitration::Forecaster forecaster({&inputs.car, &inputs.harm, &atlas});
       const auto forecast = [&](std::size_t call) {
         const world::Scene& scene = scenes[call % scenes.size()];
         const intent::Beliefs beliefs = intent::beliefs_at_sight(inputs.intent, scene);

@@ -4,9 +4,9 @@
 #include <random>
 
 #include "apps/saca/inputs.h"
-#include "saca/core/clock.h"
-#include "saca/manoeuvre/atlas.h"
-#include "saca/world/scene.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/world/scene.h"
+#include "saca/onboard/atlas/atlas.h"
 
 namespace saca::app {
 
@@ -18,7 +18,7 @@ namespace saca::app {
 /// none, so that it makes its own; decide.atlas_judge_us, that alone; decide.verdict_us, one
 /// verdict of the forecaster. decide.machine_us is what a loop that only reads the clock has.
 /// @param num_calls  of the reflex plane, each
-void bench_decide(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock, int num_calls,
+void bench_decide(const Inputs& inputs, const atlas::Atlas& atlas, Clock& clock, int num_calls,
                   nlohmann::json& figures);
 
 }  // namespace saca::app

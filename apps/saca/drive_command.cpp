@@ -10,12 +10,12 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/core/units.h"
-#include "saca/manoeuvre/drive.h"
-#include "saca/report/drive_json.h"
-#include "saca/report/html_report.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/report/drive_json.h"
+#include "saca/lab/report/html_report.h"
+#include "saca/onboard/manoeuvre/drive.h"
 
 namespace saca::app {
 namespace {
@@ -148,9 +148,9 @@ int drive(const DriveOptions& options) {
   if (options.draws > 0) {
     constexpr int shown_paths = 50;
     record.draws = {.seed = options.seed,
-                    .endings = manoeuvre::draw_endings(
-                        record.car, record.plan, record.scene, options.grip, horizon_of(options),
-                        options.draws, options.seed, shown_paths, options.threads)};
+                    .endings = tune::draw_endings(record.car, record.plan, record.scene,
+                                                  options.grip, horizon_of(options), options.draws,
+                                                  options.seed, shown_paths, options.threads)};
   }
   const std::string text = report::drive_json(record);
   if (options.as_json) {

@@ -5,8 +5,8 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/report/explanation.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/report/explanation.h"
 
 namespace saca::app {
 namespace {

@@ -11,11 +11,11 @@
 #include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/eval/decision_point.h"
-#include "saca/eval/suite_source.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/outcome/describe.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/eval/decision_point.h"
+#include "saca/lab/eval/suite_source.h"
+#include "saca/onboard/collision/describe.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {
@@ -38,12 +38,12 @@ struct FamilyCommand {
 };
 
 /// A sample with what comes of doing nothing from the trigger on.
-report::SceneView thumbnail(const sim::Scenario& scenario, const std::vector<sim::DrawnCue>& cues,
-                            const Inputs& inputs) {
+report::SceneView thumbnail(const scenario::Scenario& scenario,
+                            const std::vector<families::DrawnCue>& cues, const Inputs& inputs) {
   const auto trigger = eval::trigger_time(scenario, inputs.car);
   const eval::DecisionPoint point =
       eval::decision_point_at(scenario, inputs.car, trigger.value_or(0.0));
-  const auto tried = loop::hindsight(point, inputs.car, inputs.harm);
+  const auto tried = encounter::hindsight(point, inputs.car, inputs.harm);
   report::SceneView view =
       view_of(point.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
   view.policy = std::nullopt;
@@ -60,11 +60,11 @@ report::SceneView thumbnail(const sim::Scenario& scenario, const std::vector<sim
   return view;
 }
 
-json json_of(const sim::Scenario& scenario, const fs::path& file) {
+json json_of(const scenario::Scenario& scenario, const fs::path& file) {
   return {{"name", scenario.name},
           {"file", file.empty() ? json() : json(file.string())},
           {"grip", scenario.grip},
-          {"ego_speed_mps", std::get<sim::EgoStart>(scenario.ego).speed},
+          {"ego_speed_mps", std::get<scenario::EgoStart>(scenario.ego).speed},
           {"actors", scenario.actors.size()}};
 }
 
@@ -88,7 +88,7 @@ int run(const FamilyCommand& options) {
   if (!read.has_value() || !splits.has_value()) {
     return refused(read.has_value() ? splits.error() : read.error());
   }
-  sim::Family family = std::move(read).value();
+  families::Family family = std::move(read).value();
   if (!options.cues.empty()) {
     const auto cues =
         eval::cues_of_suite(inputs.value().places.root / "scenarios" / "families", options.cues);
@@ -97,13 +97,14 @@ int run(const FamilyCommand& options) {
     }
     family.cues = cues.value();
   }
-  std::optional<sim::TestLog> log;
+  std::optional<families::TestLog> log;
   if (!options.test_log.empty()) {
-    log = sim::TestLog{options.test_log, fmt::format("saca family {} --first {} --sample {}",
-                                                     options.name, options.first, options.count)};
+    log = families::TestLog{options.test_log,
+                            fmt::format("saca family {} --first {} --sample {}", options.name,
+                                        options.first, options.count)};
   }
   const auto seed =
-      sim::seed_for(splits.value(), *sim::split_from(options.split), family.name, log);
+      families::seed_for(splits.value(), *families::split_from(options.split), family.name, log);
   if (!seed.has_value()) {
     const std::string hint = options.split == "test" ? " (--test-log FILE)" : "";
     return refused({seed.error().code, seed.error().message + hint});
@@ -114,23 +115,24 @@ int run(const FamilyCommand& options) {
   json list = json::array();
   const world::Footprint ego = manoeuvre::footprint(inputs.value().car);
   for (int k = options.first; k < options.first + options.count; ++k) {
-    const auto sample = sim::sample(family, seed.value(), static_cast<std::uint64_t>(k),
-                                    inputs.value().car_name, ego);
+    const auto sample = families::sample(family, seed.value(), static_cast<std::uint64_t>(k),
+                                         inputs.value().car_name, ego);
     if (!sample.has_value()) {
       return refused(sample.error());
     }
-    const sim::Scenario& scenario = options.twins ? sample.value().twin : sample.value().scenario;
+    const scenario::Scenario& scenario =
+        options.twins ? sample.value().twin : sample.value().scenario;
     fs::path file;
     if (!options.write.empty()) {
       file = fs::path(options.write) / (scenario.name + ".toml");
-      auto problem = write_output(file, sim::write_scenario(scenario));
+      auto problem = write_output(file, scenario::write_scenario(scenario));
       if (problem) {
         return refused(*problem);
       }
     }
     list.push_back(json_of(scenario, file));
-    std::vector<sim::DrawnCue> cues = sample.value().cues;
-    for (sim::DrawnCue& cue : cues) {
+    std::vector<families::DrawnCue> cues = sample.value().cues;
+    for (families::DrawnCue& cue : cues) {
       cue.comes = cue.comes && !options.twins;
     }
     sheet.scenes.push_back(thumbnail(scenario, cues, inputs.value()));

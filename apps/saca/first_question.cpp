@@ -4,21 +4,22 @@
 #include <string>
 #include <utility>
 
-#include "saca/decide/event.h"
+#include "saca/thinking/arbitration/event.h"
 
 namespace saca::app {
 namespace {
 
 /// Takes the first question of an encounter and answers none.
-class QuestionTaker final : public reason::LanguageModel {
+class QuestionTaker final : public language_model::LanguageModel {
  public:
   [[nodiscard]] std::string description() const override { return "question taker"; }
   [[nodiscard]] std::size_t num_first() const { return num_first_; }
 
  private:
-  [[nodiscard]] Result<std::vector<reason::Reply>> reply_to(
+  [[nodiscard]] Result<std::vector<language_model::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const reason::Progress&)>&, const reason::AskLimits&) override {
+      const std::function<void(const language_model::Progress&)>&,
+      const language_model::AskLimits&) override {
     if (num_first_ == 0) {
       num_first_ = scenes.size();
     }
@@ -33,19 +34,19 @@ class QuestionTaker final : public reason::LanguageModel {
 Result<FirstQuestion> first_question(const ScenarioInputs& inputs,
                                      const preview::ForecastTools& tools, Clock& clock) {
   QuestionTaker taker;
-  loop::Silence silence;
-  const loop::Setup setup{.scenario = &inputs.scenario,
-                          .car = &inputs.car,
-                          .harm = &inputs.harm,
-                          .intent = &inputs.intent,
-                          .atlas = tools.atlas,
-                          .danger = tools.danger,
-                          .cues = tools.cues,
-                          .pace = runtime::Pace::lockstep,
-                          .costs = {},
-                          .model = &taker,
-                          .clock = &clock};
-  auto record = loop::run(setup, silence);
+  encounter::Silence silence;
+  const encounter::Setup setup{.scenario = &inputs.scenario,
+                               .car = &inputs.car,
+                               .harm = &inputs.harm,
+                               .intent = &inputs.intent,
+                               .atlas = tools.atlas,
+                               .danger = tools.danger,
+                               .cues = tools.cues,
+                               .pace = runtime::Pace::lockstep,
+                               .costs = {},
+                               .model = &taker,
+                               .clock = &clock};
+  auto record = encounter::run(setup, silence);
   if (!record.has_value()) {
     return record.error();
   }
@@ -53,8 +54,8 @@ Result<FirstQuestion> first_question(const ScenarioInputs& inputs,
   const auto& all = asked.record.previews;  // numbered as they were asked about
   asked.previews.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(
                                                        std::min(all.size(), taker.num_first())));
-  for (decide::Preview& preview : asked.previews) {  // forecast anew since then
-    preview.prompt = decide::prompt_of(preview);
+  for (arbitration::Preview& preview : asked.previews) {  // forecast anew since then
+    preview.prompt = arbitration::prompt_of(preview);
   }
   return asked;
 }

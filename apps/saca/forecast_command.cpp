@@ -17,11 +17,11 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/forecast_score.h"
-#include "saca/eval/suite_figures.h"
-#include "saca/eval/traffic_drives.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/forecast_score.h"
+#include "saca/lab/eval/suite_figures.h"
+#include "saca/lab/eval/traffic_drives.h"
 
 namespace saca::app {
 namespace {
@@ -271,8 +271,8 @@ Heard heard_in_drive(const eval::TrafficDrive& drive, std::uint64_t number, cons
     return heard;
   }
   const eval::SuiteOptions as_suite{.methods = {}, .seed = options.seed, .exact = options.exact};
-  const sim::Scenario world = eval::as_played(made.value().scenario, as_suite);
-  const loop::Stage stage{
+  const scenario::Scenario world = eval::as_played(made.value().scenario, as_suite);
+  const encounter::Stage stage{
       .scenario = &world,
       .car = &inputs.car,
       .harm = &inputs.harm,
@@ -444,7 +444,7 @@ void add_forecast_eval(CLI::App& forecast, int& exit_code) {
 
 }  // namespace
 
-loop::Stage PlayedEncounter::stage(const Inputs& inputs) const {
+encounter::Stage PlayedEncounter::stage(const Inputs& inputs) const {
   return {.scenario = &world,
           .car = &inputs.car,
           .harm = &inputs.harm,
@@ -453,8 +453,8 @@ loop::Stage PlayedEncounter::stage(const Inputs& inputs) const {
           .chance = chance};
 }
 
-loop::Stage PlayedEncounter::twin_stage(const Inputs& inputs) const {
-  loop::Stage as_twin = stage(inputs);
+encounter::Stage PlayedEncounter::twin_stage(const Inputs& inputs) const {
+  encounter::Stage as_twin = stage(inputs);
   as_twin.scenario = &twin.value();
   return as_twin;
 }

@@ -7,22 +7,22 @@
 
 #include "apps/saca/inputs.h"
 #include "apps/saca/suite_sources.h"
-#include "saca/loop/closed_loop.h"
-#include "saca/sim/chance.h"
-#include "saca/sim/scenario.h"
+#include "saca/lab/encounter/closed_loop.h"
+#include "saca/lab/scenario/chance.h"
+#include "saca/lab/scenario/scenario.h"
 
 namespace saca::app {
 
 /// An encounter as forecasts are held against it: with the draws and the perception of a suite.
 struct PlayedEncounter {
   std::string family;
-  sim::Scenario world;
-  sim::Chance chance;
-  std::optional<sim::Scenario> twin;  ///< the same without risk, where there is one
+  scenario::Scenario world;
+  scenario::Chance chance;
+  std::optional<scenario::Scenario> twin;  ///< the same without risk, where there is one
 
   /// Refer to this and to the inputs; the second to the twin, which must be there.
-  [[nodiscard]] loop::Stage stage(const Inputs& inputs) const;
-  [[nodiscard]] loop::Stage twin_stage(const Inputs& inputs) const;
+  [[nodiscard]] encounter::Stage stage(const Inputs& inputs) const;
+  [[nodiscard]] encounter::Stage twin_stage(const Inputs& inputs) const;
 };
 [[nodiscard]] Result<PlayedEncounter> played_encounter(const SuiteEncounters& encounters,
                                                        const SuiteCommandOptions& options,

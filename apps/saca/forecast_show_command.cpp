@@ -7,9 +7,9 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/eval/forecast_fan.h"
-#include "saca/report/scene_svg.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/eval/forecast_fan.h"
+#include "saca/lab/report/scene_svg.h"
 
 namespace saca::app {
 namespace {

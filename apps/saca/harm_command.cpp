@@ -6,9 +6,9 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/core/units.h"
-#include "saca/report/harm_chart.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/report/harm_chart.h"
 
 namespace saca::app {
 namespace {
@@ -53,7 +53,7 @@ int harm(const HarmOptions& options) {
     return bad_input;
   }
   const std::filesystem::path file = places.value().root / "data" / "harm.toml";
-  const auto model = outcome::read_harm(file);
+  const auto model = collision::read_harm(file);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;

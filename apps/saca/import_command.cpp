@@ -16,12 +16,12 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/within.h"
-#include "saca/core/clock.h"
-#include "saca/core/file.h"
-#include "saca/core/units.h"
-#include "saca/sim/hundred_car.h"
-#include "saca/sim/hundred_car_release.h"
-#include "saca/sim/traffic_recording.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/importers/hundred_car.h"
+#include "saca/lab/importers/hundred_car_release.h"
+#include "saca/lab/importers/traffic_recording.h"
 
 namespace saca::app {
 namespace {
@@ -30,19 +30,19 @@ namespace fs = std::filesystem;
 
 struct ImportOptions {
   std::string path;
-  sim::HundredCarRequest request;
+  importers::HundredCarRequest request;
   bool all = false;
   std::string output;
   bool as_json = false;
 };
 
 int import_hundred_car(const ImportOptions& options) {
-  const auto imported = sim::import_hundred_car(options.path, options.request);
+  const auto imported = importers::import_hundred_car(options.path, options.request);
   if (!imported.has_value()) {
     complain(imported.error().message);
     return bad_input;
   }
-  const std::string text = sim::write_scenario(imported.value().scenario);
+  const std::string text = scenario::write_scenario(imported.value().scenario);
   if (options.output.empty()) {
     app::print("{}", text);
     return success;
@@ -51,7 +51,7 @@ int import_hundred_car(const ImportOptions& options) {
     complain(problem->message);
     return cannot_write;
   }
-  const sim::HundredCarReport& report = imported.value().report;
+  const importers::HundredCarReport& report = imported.value().report;
   app::print("{}: event {}, rows {} to {}; lead seen in {} rows, {} gaps bridged, {} outliers\n",
              options.output, options.request.event, report.first_row, report.last_row,
              report.lead.num_seen, report.lead.num_gaps, report.lead.num_outliers);
@@ -59,12 +59,12 @@ int import_hundred_car(const ImportOptions& options) {
 }
 
 /// Reads and rebuilds all events, with progress on the error stream.
-Result<std::vector<sim::HundredCarOutcome>> all_hundred_cars(const ImportOptions& options) {
+Result<std::vector<importers::HundredCarOutcome>> all_hundred_cars(const ImportOptions& options) {
   watch_for_interrupt();
   SteadyClock clock;
   constexpr int percent = 100;
   ProgressLine line("import 100car", percent, clock);
-  return sim::import_hundred_cars(
+  return importers::import_hundred_cars(
       options.path, options.request, [&](std::size_t done, std::size_t all) {
         line.show(static_cast<int>(percent * done / all), 0, " percent");
         return !interrupted();
@@ -72,12 +72,12 @@ Result<std::vector<sim::HundredCarOutcome>> all_hundred_cars(const ImportOptions
 }
 
 /// The scenarios as files of a folder.
-std::optional<Error> write_scenarios(const std::vector<sim::HundredCarOutcome>& outcomes,
+std::optional<Error> write_scenarios(const std::vector<importers::HundredCarOutcome>& outcomes,
                                      const fs::path& folder) {
-  for (const sim::HundredCarOutcome& outcome : outcomes) {
-    if (const sim::HundredCarImport* made = outcome.rebuilt()) {
+  for (const importers::HundredCarOutcome& outcome : outcomes) {
+    if (const importers::HundredCarImport* made = outcome.rebuilt()) {
       const fs::path file = folder / (made->scenario.name + ".toml");
-      if (auto problem = write_output(file, sim::write_scenario(made->scenario))) {
+      if (auto problem = write_output(file, scenario::write_scenario(made->scenario))) {
         return problem;
       }
     }
@@ -85,14 +85,14 @@ std::optional<Error> write_scenarios(const std::vector<sim::HundredCarOutcome>& 
   return std::nullopt;
 }
 
-nlohmann::json outcome_json(const sim::HundredCarOutcome& outcome) {
+nlohmann::json outcome_json(const importers::HundredCarOutcome& outcome) {
   nlohmann::json told{{"event", outcome.event}, {"severity", outcome.severity}};
-  if (const sim::HundredCarRefusal* refusal = outcome.refusal()) {
+  if (const importers::HundredCarRefusal* refusal = outcome.refusal()) {
     told["refused"] = name(refusal->reason);
     told["message"] = refusal->message;
     return told;
   }
-  const sim::HundredCarReport& report = outcome.rebuilt()->report;
+  const importers::HundredCarReport& report = outcome.rebuilt()->report;
   told["scenario"] = outcome.rebuilt()->scenario.name;
   told["first_row"] = report.first_row;
   told["last_row"] = report.last_row;
@@ -103,9 +103,9 @@ nlohmann::json outcome_json(const sim::HundredCarOutcome& outcome) {
   return told;
 }
 
-void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t num_rebuilt,
+void tell_all(const std::vector<importers::HundredCarOutcome>& outcomes, std::size_t num_rebuilt,
               bool as_json) {
-  const auto refusals = sim::refusals(outcomes);
+  const auto refusals = importers::refusals(outcomes);
   if (as_json) {
     nlohmann::json reasons = nlohmann::json::object();
     for (const auto& [reason, count] : refusals) {
@@ -153,16 +153,16 @@ int import_all_hundred_cars(const ImportOptions& options) {
 
 struct TrafficOptions {
   std::string path;
-  sim::TrafficRequest request;
+  importers::TrafficRequest request;
   std::string output;
   bool as_json = false;
 };
 
-nlohmann::json traffic_json(const sim::TrafficImport& made, const TrafficOptions& options) {
-  const sim::TrafficReport& report = made.report;
-  const traffic::LaneFit& lane = report.lane;
+nlohmann::json traffic_json(const importers::TrafficImport& made, const TrafficOptions& options) {
+  const importers::TrafficReport& report = made.report;
+  const recordings::LaneFit& lane = report.lane;
   nlohmann::json actors = nlohmann::json::array();
-  for (const sim::TrafficActor& actor : report.actors) {
+  for (const importers::TrafficActor& actor : report.actors) {
     actors.push_back({{"name", actor.name}, {"obstacle", actor.obstacle}});
   }
   return {{"schema", "saca.traffic_import/1"},
@@ -192,9 +192,9 @@ nlohmann::json traffic_json(const sim::TrafficImport& made, const TrafficOptions
           {"ignored", report.ignored}};
 }
 
-void tell(const sim::TrafficImport& made, const TrafficOptions& options) {
-  const sim::TrafficReport& report = made.report;
-  const traffic::LaneFit& lane = report.lane;
+void tell(const importers::TrafficImport& made, const TrafficOptions& options) {
+  const importers::TrafficReport& report = made.report;
+  const recordings::LaneFit& lane = report.lane;
   app::print("{}: {} vehicles around {}, {:.1f} s\n", options.output, made.scenario.actors.size(),
              options.request.ego ? fmt::format("obstacle {}", *options.request.ego)
                                  : "the planning problem's start",
@@ -212,13 +212,13 @@ void tell(const sim::TrafficImport& made, const TrafficOptions& options) {
 }
 
 int import_traffic(const TrafficOptions& options) {
-  const auto imported = sim::import_commonroad(options.path, options.request);
+  const auto imported = importers::import_commonroad(options.path, options.request);
   if (!imported.has_value()) {
     complain(imported.error().message);
     return bad_input;
   }
-  const std::string text = sim::write_scenario(imported.value().scenario);
-  const auto again = sim::read_scenario(text, options.output);
+  const std::string text = scenario::write_scenario(imported.value().scenario);
+  const auto again = scenario::read_scenario(text, options.output);
   if (!again.has_value()) {
     complain(again.error().message);
     return bad_input;

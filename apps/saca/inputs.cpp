@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/tape_header.h"
 
 namespace saca::app {
@@ -25,7 +25,7 @@ Result<Inputs> read_inputs(const std::string& car) {
   if (!read.has_value()) {
     return read.error();
   }
-  const auto harm = outcome::read_harm(places.value().root / "data" / "harm.toml");
+  const auto harm = collision::read_harm(places.value().root / "data" / "harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }
@@ -64,7 +64,7 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
     return found.error();
   }
   const fs::path& file = found.value();
-  const auto first = sim::load_scenario(file);
+  const auto first = scenario::load_scenario(file);
   if (!first.has_value()) {
     return first.error();
   }
@@ -76,7 +76,7 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
     return inputs.error();
   }
   // Again, now that the body of its car is known.
-  const auto read = sim::load_scenario(file, manoeuvre::footprint(inputs.value().car));
+  const auto read = scenario::load_scenario(file, manoeuvre::footprint(inputs.value().car));
   if (!read.has_value()) {
     return read.error();
   }
@@ -98,15 +98,15 @@ Result<std::string> scenario_digest(const Places& places, const std::string& sce
   return runtime::digest_text(hash);
 }
 
-Result<sim::Family> read_family(const Places& places, const std::string& name) {
+Result<families::Family> read_family(const Places& places, const std::string& name) {
   const auto file = find_family(places, name);
   return file.has_value()
-             ? sim::load_family(file.value().parent_path(), file.value().stem().string())
+             ? families::load_family(file.value().parent_path(), file.value().stem().string())
              : file.error();
 }
 
-Result<sim::Splits> read_splits(const Places& places) {
-  return sim::load_splits(places.root / "scenarios" / "splits.toml");
+Result<families::Splits> read_splits(const Places& places) {
+  return families::load_splits(places.root / "scenarios" / "splits.toml");
 }
 
 }  // namespace saca::app

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "apps/saca/places.h"
-#include "saca/intent/cue_law.h"
-#include "saca/intent/model.h"
-#include "saca/manoeuvre/car.h"
-#include "saca/outcome/harm.h"
+#include "saca/lab/families/family.h"
+#include "saca/lab/families/splits.h"
+#include "saca/lab/scenario/scenario.h"
+#include "saca/onboard/collision/harm.h"
+#include "saca/onboard/manoeuvre/car.h"
 #include "saca/runtime/charged_model.h"
-#include "saca/sim/family.h"
-#include "saca/sim/scenario.h"
-#include "saca/sim/splits.h"
+#include "saca/thinking/intent/cue_law.h"
+#include "saca/thinking/intent/model.h"
 
 namespace saca::app {
 
@@ -19,7 +19,7 @@ struct Inputs {
   Places places;
   std::string car_name;
   manoeuvre::Car car;
-  outcome::HarmModel harm;
+  collision::HarmModel harm;
   intent::Model intent;
   intent::CueLaw cues;  ///< what cues of a scene stand for: data/cues.toml
 };
@@ -31,7 +31,7 @@ struct Inputs {
 [[nodiscard]] Result<runtime::ThinkingCosts> read_costs(const Places& places);
 
 struct ScenarioInputs : Inputs {
-  sim::Scenario scenario;
+  scenario::Scenario scenario;
 };
 
 /// @param scenario  its file, or the name of a shipped one; it names the car
@@ -43,7 +43,7 @@ struct ScenarioInputs : Inputs {
                                                   const std::string& scenario);
 
 /// One shipped family, or one of the user's own folder.
-[[nodiscard]] Result<sim::Family> read_family(const Places& places, const std::string& name);
-[[nodiscard]] Result<sim::Splits> read_splits(const Places& places);
+[[nodiscard]] Result<families::Family> read_family(const Places& places, const std::string& name);
+[[nodiscard]] Result<families::Splits> read_splits(const Places& places);
 
 }  // namespace saca::app

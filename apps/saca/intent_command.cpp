@@ -14,18 +14,18 @@
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/parallel.h"
-#include "saca/learn/examples.h"
-#include "saca/learn/sequence_file.h"
-#include "saca/learn/simulated.h"
-#include "saca/learn/split.h"
-#include "saca/traffic/set_file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/recordings/set_file.h"
+#include "saca/lab/training/examples.h"
+#include "saca/lab/training/sequence_file.h"
+#include "saca/lab/training/simulated.h"
+#include "saca/lab/training/split.h"
 
 namespace saca::app {
 namespace {
 
-using learn::Sequence;
-using learn::SequenceSet;
+using training::Sequence;
+using training::SequenceSet;
 
 struct ExamplesOptions {
   std::vector<std::string> sets;
@@ -40,7 +40,7 @@ void tell_shares(const SequenceSet& set) {
   app::print("{:12} {:>9} {:>8} {:>8} | frames: M, LC, RC, FB, LB, RB; in doubt\n", "split",
              "sequences", "groups", "hours");
   for (const std::string& split : splits) {
-    std::vector<std::size_t> frames(learn::num_vehicle_classes, 0);
+    std::vector<std::size_t> frames(training::num_vehicle_classes, 0);
     std::set<std::string> groups;
     std::size_t doubtful = 0;
     std::size_t num = 0;
@@ -58,7 +58,7 @@ void tell_shares(const SequenceSet& set) {
       }
     }
     app::print("{:12} {:9} {:8} {:8.2f} |", split, num, groups.size(),
-               static_cast<double>(all) * learn::frame_step / 3600.0);
+               static_cast<double>(all) * training::frame_step / 3600.0);
     for (const std::size_t count : frames) {
       app::print(" {}", count);
     }
@@ -70,15 +70,15 @@ void tell_shares(const SequenceSet& set) {
 Result<SequenceSet> gathered(const ExamplesOptions& options) {
   std::vector<Sequence> recorded;
   for (const std::string& file : options.sets) {
-    const auto set = traffic::read_set(file);
+    const auto set = recordings::read_set(file);
     if (!set.has_value()) {
       return set.error();
     }
-    auto some = learn::examples_of(set.value());
+    auto some = training::examples_of(set.value());
     std::move(some.begin(), some.end(), std::back_inserter(recorded));
   }
   SequenceSet all;
-  for (const int part : learn::parts_of(recorded, options.parts)) {
+  for (const int part : training::parts_of(recorded, options.parts)) {
     all.splits.push_back(fmt::format("part-{}", part));
   }
   all.sequences = std::move(recorded);
@@ -86,7 +86,7 @@ Result<SequenceSet> gathered(const ExamplesOptions& options) {
   for (const auto& [split, seed, count] :
        {std::tuple("simulated", options.seed, options.simulated),
         std::tuple("test", options.seed + 1, options.simulated / 2)}) {
-    for (Sequence& each : learn::simulated_sequences(count, seed, usual_threads())) {
+    for (Sequence& each : training::simulated_sequences(count, seed, usual_threads())) {
       each.name = fmt::format("{} {}", split, each.name);
       all.sequences.push_back(std::move(each));
       all.splits.emplace_back(split);
@@ -103,14 +103,14 @@ int make_examples(const ExamplesOptions& options) {
   if (!all.has_value()) {
     return refused(all.error());
   }
-  if (const auto rule = learn::broken_rule(all.value())) {
+  if (const auto rule = training::broken_rule(all.value())) {
     complain(fmt::format("{}: {}", options.sets.front(), *rule));
     return bad_input;
   }
   if (const auto problem = make_folder_of(options.output)) {
     return refused(*problem);
   }
-  if (const auto problem = learn::write_sequences(options.output, all.value())) {
+  if (const auto problem = training::write_sequences(options.output, all.value())) {
     return refused(*problem);
   }
   tell_shares(all.value());

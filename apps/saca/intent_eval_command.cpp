@@ -12,24 +12,24 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/learn/baselines.h"
-#include "saca/learn/calibration.h"
-#include "saca/learn/displacement.h"
-#include "saca/learn/evaluation.h"
-#include "saca/learn/forecast_file.h"
-#include "saca/learn/predict.h"
-#include "saca/learn/sequence_file.h"
-#include "saca/report/intention_chart.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/report/intention_chart.h"
+#include "saca/lab/training/baselines.h"
+#include "saca/lab/training/calibration.h"
+#include "saca/lab/training/displacement.h"
+#include "saca/lab/training/evaluation.h"
+#include "saca/lab/training/forecast_file.h"
+#include "saca/lab/training/predict.h"
+#include "saca/lab/training/sequence_file.h"
 
 namespace saca::app {
 namespace {
 
-using learn::Forecasts;
-using learn::ModelsByLeftOut;
-using learn::Sequence;
 using nlohmann::json;
+using training::Forecasts;
+using training::ModelsByLeftOut;
+using training::Sequence;
 
 struct EvalOptions {
   std::string sequences;
@@ -48,7 +48,7 @@ struct ScoredSet {
   std::vector<std::string> splits;
 };
 
-ScoredSet chosen(const learn::SequenceSet& set, bool simulated, const std::string& site = "") {
+ScoredSet chosen(const training::SequenceSet& set, bool simulated, const std::string& site = "") {
   ScoredSet found;
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
     const Sequence& sequence = set.sequences[i];
@@ -70,17 +70,17 @@ class Comparison {
 
   void add(const std::string& method, std::vector<Forecasts> forecasts) {
     Row row{.method = method,
-            .figures = learn::figures_of(scored_.sequences, forecasts, classes_, seed_),
+            .figures = training::figures_of(scored_.sequences, forecasts, classes_, seed_),
             .macro_f1_difference = {},
             .log_loss_difference = {}};
     if (rows_.empty()) {
       ours_ = std::move(forecasts);
     } else {
-      for (std::size_t head = 0; head < learn::num_heads; ++head) {
-        row.macro_f1_difference[head] =
-            learn::macro_f1_difference(scored_.sequences, ours_, forecasts, head, classes_, seed_);
+      for (std::size_t head = 0; head < training::num_heads; ++head) {
+        row.macro_f1_difference[head] = training::macro_f1_difference(
+            scored_.sequences, ours_, forecasts, head, classes_, seed_);
         row.log_loss_difference[head] =
-            learn::log_loss_difference(scored_.sequences, ours_, forecasts, head, seed_);
+            training::log_loss_difference(scored_.sequences, ours_, forecasts, head, seed_);
       }
     }
     rows_.push_back(std::move(row));
@@ -95,10 +95,10 @@ class Comparison {
     }
   }
   /// Where our own forecasts say that vehicles will be.
-  [[nodiscard]] learn::Displacements displacements(const intent::MotionLaw& law) const {
-    learn::Displacements sum;
+  [[nodiscard]] training::Displacements displacements(const intent::MotionLaw& law) const {
+    training::Displacements sum;
     for (std::size_t i = 0; i < ours_.size(); ++i) {
-      sum += learn::displacements(scored_.sequences[i], ours_[i], law);
+      sum += training::displacements(scored_.sequences[i], ours_[i], law);
     }
     return sum;
   }
@@ -146,7 +146,7 @@ ModelsByLeftOut without_chains(ModelsByLeftOut models) {
 std::optional<Error> add_unseen(Comparison& comparison, const std::string& method,
                                 const ModelsByLeftOut& models, const ScoredSet& scored) {
   auto forecasts =
-      learn::predicted_unseen(models, scored.sequences, scored.splits, usual_threads());
+      training::predicted_unseen(models, scored.sequences, scored.splits, usual_threads());
   if (!forecasts.has_value()) {
     return forecasts.error();
   }
@@ -162,13 +162,13 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
   }
   const ScoredSet closed = nothing_shared(scored);
   auto of_closed =
-      learn::predicted_unseen(models, closed.sequences, closed.splits, usual_threads());
+      training::predicted_unseen(models, closed.sequences, closed.splits, usual_threads());
   if (!of_closed.has_value()) {
     return of_closed.error();
   }
   comparison.add("LSTM-CRF, nothing shared", std::move(of_closed).value());
   if (!options.other_models.empty()) {
-    const auto others = learn::read_models(options.other_models);
+    const auto others = training::read_models(options.other_models);
     if (!others.has_value()) {
       return others.error();
     }
@@ -178,17 +178,17 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     }
   }
   if (!options.plain_models.empty()) {
-    const auto plain = learn::read_models(options.plain_models);
+    const auto plain = training::read_models(options.plain_models);
     if (!plain.has_value()) {
       return plain.error();
     }
-    const auto forecasts = learn::predicted_unseen(without_chains(plain.value()), scored.sequences,
-                                                   scored.splits, usual_threads());
+    const auto forecasts = training::predicted_unseen(
+        without_chains(plain.value()), scored.sequences, scored.splits, usual_threads());
     if (!forecasts.has_value()) {
       return forecasts.error();
     }
     comparison.add("LSTM without CRF",
-                   learn::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
+                   training::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
   }
   const auto by = [&](auto&& predict) {
     std::vector<Forecasts> all;
@@ -198,28 +198,30 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     }
     return all;
   };
-  comparison.add("CRF by hand", by([](const Sequence& each) { return learn::crf_by_hand(each); }));
-  comparison.add("causal rule", by([](const Sequence& each) { return learn::causal_rule(each); }));
-  comparison.add("constant motion", by(learn::constant_motion));
+  comparison.add("CRF by hand",
+                 by([](const Sequence& each) { return training::crf_by_hand(each); }));
+  comparison.add("causal rule",
+                 by([](const Sequence& each) { return training::causal_rule(each); }));
+  comparison.add("constant motion", by(training::constant_motion));
   for (const std::string& file : options.forecasts) {
-    const auto set = learn::read_forecasts(file);
+    const auto set = training::read_forecasts(file);
     if (!set.has_value()) {
       return set.error();
     }
-    const auto forecasts = learn::forecasts_of(set.value(), scored.sequences, file);
+    const auto forecasts = training::forecasts_of(set.value(), scored.sequences, file);
     if (!forecasts.has_value()) {
       return forecasts.error();
     }
     comparison.add(set.value().model, forecasts.value());
     comparison.add(set.value().model + ", calibrated as ours",
-                   learn::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
+                   training::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
   }
   return std::nullopt;
 }
 
 /// Sites that some model has never seen: by that model, and by those of the cross-validation.
 std::vector<Comparison> compare_transfer(const ModelsByLeftOut& models,
-                                         const learn::SequenceSet& set,
+                                         const training::SequenceSet& set,
                                          std::vector<std::unique_ptr<ScoredSet>>& kept,
                                          std::uint64_t seed) {
   std::vector<Comparison> all;
@@ -228,10 +230,10 @@ std::vector<Comparison> compare_transfer(const ModelsByLeftOut& models,
     if (scored->sequences.empty()) {
       continue;
     }
-    Comparison comparison("Transfer: " + left_out, *scored, learn::recorded_classes, seed);
+    Comparison comparison("Transfer: " + left_out, *scored, training::recorded_classes, seed);
     if (!add_unseen(comparison, "its site seen", models, *scored)) {
       comparison.add("its site never seen",
-                     learn::predicted(model, scored->sequences, usual_threads()));
+                     training::predicted(model, scored->sequences, usual_threads()));
       all.push_back(std::move(comparison));
       kept.push_back(std::move(scored));
     }
@@ -247,21 +249,21 @@ int evaluate(EvalOptions options) {
     }
     options.models = (places.value().root / "models" / "intent").string();
   }
-  const auto set = learn::read_sequences(options.sequences);
+  const auto set = training::read_sequences(options.sequences);
   if (!set.has_value()) {
     return refused(set.error());
   }
   if (const auto problem = why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
-  const auto models = learn::read_models(options.models);
+  const auto models = training::read_models(options.models);
   if (!models.has_value()) {
     return refused(models.error());
   }
   const ScoredSet recorded = chosen(set.value(), false);
   std::vector<Comparison> comparisons;
   comparisons.emplace_back("Recorded vehicles, by models that have not seen them (M, LC, RC, FB)",
-                           recorded, learn::recorded_classes, options.seed);
+                           recorded, training::recorded_classes, options.seed);
   if (const auto problem =
           compare_recorded(options, models.value(), recorded, comparisons.front())) {
     return refused(*problem);
@@ -271,14 +273,14 @@ int evaluate(EvalOptions options) {
       return refused(*problem);
     }
   }
-  const learn::Displacements moved = comparisons.front().displacements(intent::MotionLaw());
+  const training::Displacements moved = comparisons.front().displacements(intent::MotionLaw());
   const ScoredSet simulated = chosen(set.value(), true);
   const auto whole = models.value().find("nothing");
   if (whole != models.value().end() && !simulated.sequences.empty()) {
-    comparisons.emplace_back("Simulated vehicles (LB, RB)", simulated, learn::simulated_classes,
+    comparisons.emplace_back("Simulated vehicles (LB, RB)", simulated, training::simulated_classes,
                              options.seed);
-    comparisons.back().add("LSTM-CRF",
-                           learn::predicted(whole->second, simulated.sequences, usual_threads()));
+    comparisons.back().add(
+        "LSTM-CRF", training::predicted(whole->second, simulated.sequences, usual_threads()));
   }
   std::vector<std::unique_ptr<ScoredSet>> kept;
   for (Comparison& each : compare_transfer(models.value(), set.value(), kept, options.seed)) {

@@ -7,14 +7,14 @@
 #include <utility>
 
 #include "apps/saca/printing.h"
-#include "saca/intent/intention.h"
+#include "saca/thinking/intent/intention.h"
 
 namespace saca::app {
 namespace {
 
-using learn::Figures;
-using learn::Interval;
 using nlohmann::json;
+using training::Figures;
+using training::Interval;
 
 json number(const std::optional<double>& value) {
   return value ? json(*value) : json();
@@ -26,7 +26,7 @@ json interval_json(const std::optional<Interval>& interval) {
              : json();
 }
 
-json lead_times_json(const learn::LeadTimes& lead_times) {
+json lead_times_json(const training::LeadTimes& lead_times) {
   return {{"events", lead_times.events()},
           {"share_warned", number(lead_times.share_predicted())},
           {"lower_quartile_s", number(lead_times.quantile(0.25))},
@@ -34,13 +34,13 @@ json lead_times_json(const learn::LeadTimes& lead_times) {
           {"upper_quartile_s", number(lead_times.quantile(0.75))}};
 }
 
-json events_json(const learn::ManoeuvreEventsFound& found) {
+json events_json(const training::ManoeuvreEventsFound& found) {
   json all = json::object();
-  for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
+  for (std::size_t k = 1; k < training::num_vehicle_classes; ++k) {
     json recalls = json::array();
-    for (std::size_t a = 0; a < learn::ManoeuvreEventsFound::ages.size(); ++a) {
-      const learn::ManoeuvreEventsFound::Share& frames = found.of[k].frames[a];
-      recalls.push_back({{"from_s", learn::ManoeuvreEventsFound::ages[a]},
+    for (std::size_t a = 0; a < training::ManoeuvreEventsFound::ages.size(); ++a) {
+      const training::ManoeuvreEventsFound::Share& frames = found.of[k].frames[a];
+      recalls.push_back({{"from_s", training::ManoeuvreEventsFound::ages[a]},
                          {"frames", frames.num},
                          {"recall", number(frames.share())}});
     }
@@ -56,17 +56,17 @@ std::string cell(const std::optional<double>& value, int digits = 3) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
-constexpr std::array<std::string_view, learn::num_foresights> foresight_names{
+constexpr std::array<std::string_view, training::num_foresights> foresight_names{
     "constant velocity", "lane keeping", "likeliest intention", "mean over intentions"};
 
 }  // namespace
 
 json row_json(const Row& row) {
   json heads = json::array();
-  for (std::size_t head = 0; head < learn::num_heads; ++head) {
-    const learn::Tally& tally = row.figures.tallies[head];
+  for (std::size_t head = 0; head < training::num_heads; ++head) {
+    const training::Tally& tally = row.figures.tallies[head];
     json classes = json::object();
-    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+    for (std::size_t k = 0; k < training::num_vehicle_classes; ++k) {
       classes[std::string(name(static_cast<intent::Intention>(k)))] = {
           {"frames", tally.confusion.truly(k)},
           {"recall", number(tally.confusion.recall(k))},
@@ -119,15 +119,15 @@ void tell_table(const std::string& title, const std::vector<Row>& rows) {
 }
 
 void tell_confusion(const Row& row) {
-  for (std::size_t head = 0; head < learn::num_heads; ++head) {
-    const learn::Confusion& confusion = row.figures.tallies[head].confusion;
+  for (std::size_t head = 0; head < training::num_heads; ++head) {
+    const training::Confusion& confusion = row.figures.tallies[head].confusion;
     app::print("\n{}, {:.1f} s ahead: truth in rows, predicted in columns\n{:>8}", row.method,
                intent::horizons[head], "");
-    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+    for (std::size_t k = 0; k < training::num_vehicle_classes; ++k) {
       app::print("{:>8}", name(static_cast<intent::Intention>(k)));
     }
     app::print("{:>8} {:>9} {:>6}\n", "recall", "precision", "F1");
-    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+    for (std::size_t k = 0; k < training::num_vehicle_classes; ++k) {
       app::print("{:>8}", name(static_cast<intent::Intention>(k)));
       for (const std::size_t count : confusion.counts[k]) {
         app::print("{:>8}", count);
@@ -139,7 +139,7 @@ void tell_confusion(const Row& row) {
 }
 
 void tell_difference(const Row& row) {
-  for (std::size_t head = 0; head < learn::num_heads; ++head) {
+  for (std::size_t head = 0; head < training::num_heads; ++head) {
     const auto& f1 = row.macro_f1_difference[head];
     const auto& loss = row.log_loss_difference[head];
     if (f1 && loss) {
@@ -156,30 +156,30 @@ void tell_acts(const Row& row) {
   app::print("\n{}, now: acts found, and recall of their frames by the age of the act [s]\n{:8}",
              row.method, "");
   app::print("{:>16}", "acts found");
-  for (const double age : learn::ManoeuvreEventsFound::ages) {
+  for (const double age : training::ManoeuvreEventsFound::ages) {
     app::print("{:>8}", fmt::format("{:.1f}-", age));
   }
   app::print("\n");
-  for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
+  for (std::size_t k = 1; k < training::num_vehicle_classes; ++k) {
     const auto& found = row.figures.events.of[k];
     app::print("{:>8}{:>16}", name(static_cast<intent::Intention>(k)),
                fmt::format("{} of {}", found.events.found, found.events.num));
-    for (const learn::ManoeuvreEventsFound::Share& frames : found.frames) {
+    for (const training::ManoeuvreEventsFound::Share& frames : found.frames) {
       app::print("{:>8}", cell(frames.share(), 2));
     }
     app::print("\n");
   }
 }
 
-void tell_displacements(const learn::Displacements& found) {
+void tell_displacements(const training::Displacements& found) {
   for (const auto& [title, table] :
        {std::pair("all vehicles in lanes", &found.all),
         std::pair("those that brake or change lanes", &found.acting)}) {
     app::print("\nMean displacement error [m] after 1, 2, 3 s: {} ({} frames)\n", title,
                (*table)[0][0].num);
-    for (std::size_t f = 0; f < learn::num_foresights; ++f) {
+    for (std::size_t f = 0; f < training::num_foresights; ++f) {
       app::print("{:24}", foresight_names[f]);
-      for (const learn::Displacement& each : (*table)[f]) {
+      for (const training::Displacement& each : (*table)[f]) {
         app::print(" {:8.2f}", each.mean());
       }
       app::print("\n");
@@ -187,16 +187,16 @@ void tell_displacements(const learn::Displacements& found) {
   }
 }
 
-json displacements_json(const learn::Displacements& found) {
+json displacements_json(const training::Displacements& found) {
   json all = json::array();
   for (const auto& [which, table] :
        {std::pair("all", &found.all), std::pair("acting", &found.acting)}) {
-    for (std::size_t f = 0; f < learn::num_foresights; ++f) {
-      for (std::size_t k = 0; k < learn::seconds_ahead.size(); ++k) {
-        const learn::Displacement& one = (*table)[f][k];
+    for (std::size_t f = 0; f < training::num_foresights; ++f) {
+      for (std::size_t k = 0; k < training::seconds_ahead.size(); ++k) {
+        const training::Displacement& one = (*table)[f][k];
         all.push_back({{"vehicles", which},
                        {"foresight", foresight_names[f]},
-                       {"ahead_s", learn::seconds_ahead[k]},
+                       {"ahead_s", training::seconds_ahead[k]},
                        {"frames", one.num},
                        {"mean_m", one.mean()},
                        {"rms_m", one.rms()}});

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "saca/learn/bootstrap.h"
-#include "saca/learn/displacement.h"
-#include "saca/learn/evaluation.h"
+#include "saca/lab/training/bootstrap.h"
+#include "saca/lab/training/displacement.h"
+#include "saca/lab/training/evaluation.h"
 
 /// The figures of `saca intent eval` as tables and as JSON (schema saca.intent_eval/1).
 namespace saca::app {
@@ -16,10 +16,10 @@ namespace saca::app {
 /// One way to predict and its figures.
 struct Row {
   std::string method;
-  learn::Figures figures;
+  training::Figures figures;
   /// Our macro F1 less its, and our logarithmic loss less its.
-  std::array<std::optional<learn::Interval>, learn::num_heads> macro_f1_difference;
-  std::array<std::optional<learn::Interval>, learn::num_heads> log_loss_difference;
+  std::array<std::optional<training::Interval>, training::num_heads> macro_f1_difference;
+  std::array<std::optional<training::Interval>, training::num_heads> log_loss_difference;
 };
 
 void tell_table(const std::string& title, const std::vector<Row>& rows);
@@ -29,9 +29,9 @@ void tell_confusion(const Row& row);
 void tell_acts(const Row& row);
 /// Ours less it, at each horizon.
 void tell_difference(const Row& row);
-void tell_displacements(const learn::Displacements& found);
+void tell_displacements(const training::Displacements& found);
 
 [[nodiscard]] nlohmann::json row_json(const Row& row);
-[[nodiscard]] nlohmann::json displacements_json(const learn::Displacements& found);
+[[nodiscard]] nlohmann::json displacements_json(const training::Displacements& found);
 
 }  // namespace saca::app

@@ -12,15 +12,15 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/learn/examples.h"
-#include "saca/learn/motion_fit.h"
-#include "saca/traffic/set_file.h"
+#include "saca/lab/recordings/set_file.h"
+#include "saca/lab/training/examples.h"
+#include "saca/lab/training/motion_fit.h"
 
 namespace saca::app {
 namespace {
 
-using learn::LogNormal;
-using learn::MotionFit;
+using training::LogNormal;
+using training::MotionFit;
 
 constexpr double scaled_to = 3.5;  // [m]: the width of the lanes that lane changes are scaled to
 
@@ -62,16 +62,16 @@ void tell_fit(const std::string& site, const MotionFit& fit) {
 }
 
 int fit_motion(const MotionOptions& options) {
-  std::map<std::string, std::vector<learn::TrueMotion>> motions;
+  std::map<std::string, std::vector<training::TrueMotion>> motions;
   for (const std::string& file : options.sets) {
-    const auto set = traffic::read_set(file);
+    const auto set = recordings::read_set(file);
     if (!set.has_value()) {
       return refused(set.error());
     }
-    for (const traffic::Recording& recording : set.value().recordings) {
-      for (const traffic::RecordedVehicle& vehicle : recording.vehicles) {
-        if (vehicle.samples.size() >= learn::fewest_frames) {
-          learn::TrueMotion motion = learn::true_motion(vehicle, recording.step);
+    for (const recordings::Recording& recording : set.value().recordings) {
+      for (const recordings::RecordedVehicle& vehicle : recording.vehicles) {
+        if (vehicle.samples.size() >= training::fewest_frames) {
+          training::TrueMotion motion = training::true_motion(vehicle, recording.step);
           motions["all"].push_back(motion);
           motions[recording.site].push_back(std::move(motion));
         }
@@ -80,7 +80,7 @@ int fit_motion(const MotionOptions& options) {
   }
   nlohmann::json document = {{"schema", "saca.intent_motion/1"}};
   for (const auto& [site, some] : motions) {
-    const MotionFit fit = learn::motion_fit(some, scaled_to);
+    const MotionFit fit = training::motion_fit(some, scaled_to);
     if (options.as_json) {
       document["sites"][site] = fit_json(fit);
     } else {

@@ -15,20 +15,20 @@
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/intent/intention.h"
-#include "saca/learn/predict.h"
-#include "saca/learn/sequence_file.h"
-#include "saca/report/intention_chart.h"
-#include "saca/report/intention_page.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/report/intention_chart.h"
+#include "saca/lab/report/intention_page.h"
+#include "saca/lab/training/predict.h"
+#include "saca/lab/training/sequence_file.h"
+#include "saca/thinking/intent/intention.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using learn::Forecasts;
-using learn::Sequence;
+using training::Forecasts;
+using training::Sequence;
 
 struct ShowOptions {
   std::string sequences;
@@ -41,8 +41,8 @@ struct ShowOptions {
 };
 
 /// Sequences by class: each class's turn comes as often as any other's, so that rare ones are seen.
-std::vector<std::size_t> drawn(const learn::SequenceSet& set, const ShowOptions& options) {
-  std::vector<std::vector<std::size_t>> of_class(learn::num_vehicle_classes);
+std::vector<std::size_t> drawn(const training::SequenceSet& set, const ShowOptions& options) {
+  std::vector<std::vector<std::size_t>> of_class(training::num_vehicle_classes);
   std::vector<std::size_t> order(set.sequences.size());
   std::iota(order.begin(), order.end(), 0U);
   std::shuffle(order.begin(), order.end(), std::mt19937_64(options.seed));
@@ -77,7 +77,7 @@ report::IntentionSample sample_of(const Sequence& sequence, const std::string& s
                                   const Forecasts* forecasts) {
   report::IntentionSample sample{.title = sequence.name,
                                  .lines = {sequence.site + ", " + sequence.group + ", " + split},
-                                 .step = learn::frame_step,
+                                 .step = training::frame_step,
                                  .seen = sequence.observations,
                                  .labels = {sequence.labels.begin(), sequence.labels.end()},
                                  .scored = sequence.scored,
@@ -93,7 +93,7 @@ report::IntentionSample sample_of(const Sequence& sequence, const std::string& s
 }
 
 int show(const ShowOptions& options) {
-  const auto set = learn::read_sequences(options.sequences);
+  const auto set = training::read_sequences(options.sequences);
   if (!set.has_value()) {
     return refused(set.error());
   }
@@ -117,7 +117,7 @@ int show(const ShowOptions& options) {
     if (!model.has_value()) {
       return refused(model.error());
     }
-    forecasts = learn::predicted(model.value(), sequences, usual_threads());
+    forecasts = training::predicted(model.value(), sequences, usual_threads());
   }
   report::IntentionPage page{
       .title = "Intentions: drawn samples",

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "saca/core/printable.h"
+#include "saca/base/core/printable.h"
 
 namespace saca::app {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/saca/places.h"
-#include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
-#include "saca/core/result.h"
+#include "saca/base/config/json_reader.h"
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/result.h"
 
 namespace saca::app {
 

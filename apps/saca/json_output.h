@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/saca/printing.h"
-#include "saca/config/short_numbers.h"
+#include "saca/base/config/short_numbers.h"
 
 namespace saca::app {
 

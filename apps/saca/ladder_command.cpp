@@ -11,7 +11,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
-#include "saca/core/file.h"
+#include "saca/base/core/file.h"
 
 namespace saca::app {
 namespace {

@@ -21,12 +21,12 @@
 #include "apps/saca/shipped_cases.h"
 #include "apps/saca/suite_thinking.h"
 #include "apps/saca/version.h"
-#include "saca/config/json_text.h"
-#include "saca/core/fnv.h"
-#include "saca/core/journal.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/curriculum.h"
-#include "saca/memory/case_json.h"
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/journal.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/curriculum.h"
+#include "saca/thinking/memory/case_json.h"
 
 namespace saca::app {
 namespace {

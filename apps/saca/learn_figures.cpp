@@ -8,7 +8,7 @@
 
 #include "apps/saca/printing.h"
 #include "apps/saca/suite_pages.h"
-#include "saca/report/chart_svg.h"
+#include "saca/lab/report/chart_svg.h"
 
 namespace saca::app {
 namespace {
@@ -39,7 +39,7 @@ std::string key_of(const eval::MethodPair& pair, const std::string& block = "") 
 /// What only those who remember have.
 void add_learner(json& out, const std::string& place, const std::vector<Episodes>& all,
                  std::size_t learner) {
-  const loop::ThinkingFigures thinking = eval::thought(all, learner);
+  const encounter::ThinkingFigures thinking = eval::thought(all, learner);
   out[place + "forecasts"] = thinking.forecasts;
   out[place + "from_memory"] = thinking.from_memory;
   out[place + "asked_model"] = thinking.asked;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "saca/eval/curriculum_figures.h"
+#include "saca/lab/eval/curriculum_figures.h"
 
 namespace saca::app {
 

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "apps/saca/parsing.h"
-#include "saca/core/csv.h"
+#include "saca/base/core/csv.h"
 
 namespace saca::app {
 namespace {

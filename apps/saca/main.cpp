@@ -11,7 +11,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/version.h"
-#include "saca/core/standard_files.h"
+#include "saca/base/core/standard_files.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "apps/saca/parsing.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/suggestion.h"
+#include "saca/base/core/suggestion.h"
 
 namespace saca::app {
 namespace {

@@ -11,9 +11,9 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
-#include "saca/core/printable.h"
-#include "saca/eval/decision_point.h"
-#include "saca/memory/store.h"
+#include "saca/base/core/printable.h"
+#include "saca/lab/eval/decision_point.h"
+#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 namespace {
@@ -42,7 +42,7 @@ int add_case(const AddOptions& options) {
   if (!time.value()) {
     return nothing_to_decide;
   }
-  const sim::Scenario& scenario = inputs.value().scenario;
+  const scenario::Scenario& scenario = inputs.value().scenario;
   memory::Case one{.scene = eval::scene_at(scenario, inputs.value().car, *time.value()),
                    .best = *options.policy,
                    .review = options.why,

@@ -19,9 +19,9 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/version.h"
-#include "saca/eval/trigger_case.h"
-#include "saca/loop/learnt_case.h"
-#include "saca/memory/case_json.h"
+#include "saca/lab/encounter/learnt_case.h"
+#include "saca/lab/eval/trigger_case.h"
+#include "saca/thinking/memory/case_json.h"
 
 namespace saca::app {
 namespace {
@@ -48,7 +48,7 @@ struct CaseTools {
   std::vector<memory::MadeWith> made_with;
 };
 
-void gain(Gained& gained, const loop::Stage& stage, const CaseTools& with) {
+void gain(Gained& gained, const encounter::Stage& stage, const CaseTools& with) {
   auto one = eval::case_at_trigger(stage, with.planes.setup.forecast, with.draws, with.made_with);
   if (!one.has_value()) {
     gained.problem = one.error().message;
@@ -125,7 +125,7 @@ int build(const BuildOptions& options) {
   std::vector<memory::Case> cases = all_items(*std::move(gathered).value(), num_failed);
   std::array<int, manoeuvre::num_policies> best{};
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    cases[i].id = static_cast<memory::CaseId>(i + 1);
+    cases[i].id = static_cast<match::CaseId>(i + 1);
     ++best.at(manoeuvre::index(cases[i].best));
   }
   if (const auto problem = write_output(from.output, memory::cases_text(cases))) {

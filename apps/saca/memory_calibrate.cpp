@@ -15,11 +15,11 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/scale_fit.h"
-#include "saca/eval/transfer.h"
-#include "saca/report/chart_svg.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/scale_fit.h"
+#include "saca/lab/eval/transfer.h"
+#include "saca/lab/report/chart_svg.h"
 
 namespace saca::app {
 namespace {
@@ -49,14 +49,14 @@ constexpr std::array<Range, 3> ranges{{{"above_0.9", "above 0.9", 0.9, 1.0},
                                        {"0.7_to_0.9", "0.7 to 0.9", 0.7, 0.9},
                                        {"below_0.7", "up to 0.7", -1.0, 0.7}}};
 
-std::string told(const danger::Share& share) {
+std::string told(const learned_danger::Share& share) {
   const eval::ShareInterval interval = eval::interval_of(share);
   return share.of == 0 ? "-"
                        : fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * share.value(),
                                      100.0 * interval.low, 100.0 * interval.high);
 }
 
-void add_share(json& out, const std::string& key, const danger::Share& share) {
+void add_share(json& out, const std::string& key, const learned_danger::Share& share) {
   const eval::ShareInterval interval = eval::interval_of(share);
   out[key] = share.value();
   out[key + ".lo"] = interval.low;
@@ -142,7 +142,7 @@ std::vector<memory::Case> some_of(const std::vector<memory::Case>& cases, int mo
 void print_fit(const eval::ScaleFit& fit) {
   app::print("\n{:14} {:>8} {:>8}\n", "scale", "shipped", "fitted");
   for (const eval::FittedScale& one : eval::fitted_scales) {
-    app::print("{:14} {:8.3f} {:8.3f}\n", one.name, memory::Scales{}.*one.value,
+    app::print("{:14} {:8.3f} {:8.3f}\n", one.name, match::Scales{}.*one.value,
                fit.scales.*one.value);
   }
   app::print("error of the harm predicted by like cases: {:.4f}, fitted {:.4f}\n", fit.error_before,
@@ -171,7 +171,7 @@ int fit_similarity(const CalibrateOptions& options, const std::vector<memory::Ca
            {"memory.scales.error.shipped", fit->error_before},
            {"memory.scales.error.fitted", fit->error}};
   for (const eval::FittedScale& one : eval::fitted_scales) {
-    out[fmt::format("memory.scales.{}.shipped", one.name)] = memory::Scales{}.*one.value;
+    out[fmt::format("memory.scales.{}.shipped", one.name)] = match::Scales{}.*one.value;
     out[fmt::format("memory.scales.{}.fitted", one.name)] = fit->scales.*one.value;
   }
   if (!options.as_json) {

@@ -15,10 +15,10 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/case_check.h"
-#include "saca/memory/case_json.h"
-#include "saca/memory/store.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/case_check.h"
+#include "saca/thinking/memory/case_json.h"
+#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 namespace {

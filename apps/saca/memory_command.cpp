@@ -16,12 +16,12 @@
 #include "apps/saca/memory_picture.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/config/compressed_text.h"
-#include "saca/core/file.h"
-#include "saca/memory/case_json.h"
-#include "saca/memory/scene_json.h"
-#include "saca/memory/store.h"
-#include "saca/memory/thinning.h"
+#include "saca/base/config/compressed_text.h"
+#include "saca/base/core/file.h"
+#include "saca/thinking/memory/case_json.h"
+#include "saca/thinking/memory/scene_json.h"
+#include "saca/thinking/memory/store.h"
+#include "saca/thinking/memory/thinning.h"
 
 namespace saca::app {
 namespace {
@@ -193,7 +193,7 @@ int thin_bank(const MemoryOptions& options) {
     return refused(read.error());
   }
   ReadBank bank = std::move(read).value();
-  const std::vector<memory::CaseId> ids = memory::most_redundant(bank.cases, options.most);
+  const std::vector<match::CaseId> ids = memory::most_redundant(bank.cases, options.most);
   if (const auto problem = bank.store.forget(ids)) {
     return refused(*problem);
   }

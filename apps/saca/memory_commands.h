@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "saca/core/result.h"
-#include "saca/memory/case.h"
-#include "saca/memory/store.h"
+#include "saca/base/core/result.h"
+#include "saca/thinking/memory/case.h"
+#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 

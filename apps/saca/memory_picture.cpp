@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "saca/memory/experience.h"
-#include "saca/memory/feature_index.h"
-#include "saca/memory/similarity.h"
-#include "saca/preview/expected_harm.h"
-#include "saca/report/contact_sheet.h"
-#include "saca/report/suite_page.h"
+#include "saca/lab/report/contact_sheet.h"
+#include "saca/lab/report/suite_page.h"
+#include "saca/onboard/match/feature_index.h"
+#include "saca/onboard/match/similarity.h"
+#include "saca/thinking/memory/experience.h"
+#include "saca/thinking/preview/expected_harm.h"
 
 namespace saca::app {
 namespace {
@@ -73,28 +73,28 @@ struct Neighbour {
 };
 
 std::vector<Neighbour> neighbours_of(const memory::Case& one, std::span<const memory::Case> all) {
-  memory::FeatureIndex index;
+  match::FeatureIndex index;
   std::vector<const memory::Case*> others;
   for (const memory::Case& other : all) {
     if (other.id != one.id) {
       others.push_back(&other);
-      index.add(static_cast<memory::CaseId>(others.size()), other.scene);
+      index.add(static_cast<match::CaseId>(others.size()), other.scene);
     }
   }
-  std::array<memory::FeatureIndex::Hit, num_neighbours> hits;
-  const std::size_t found = index.nearest(memory::features(one.scene), hits);
+  std::array<match::FeatureIndex::Hit, num_neighbours> hits;
+  const std::size_t found = index.nearest(match::features(one.scene), hits);
   std::vector<Neighbour> neighbours;
   neighbours.reserve(found);
-  for (const memory::FeatureIndex::Hit& hit : std::span(hits).first(found)) {
+  for (const match::FeatureIndex::Hit& hit : std::span(hits).first(found)) {
     const memory::Case& other = *others[hit.place];
-    auto parts = memory::difference_parts(one.scene, other.scene);
+    auto parts = match::difference_parts(one.scene, other.scene);
     parts.resize(std::min(parts.size(), num_parts));
     std::string text;
-    for (const memory::DifferencePart& part : parts) {
+    for (const match::DifferencePart& part : parts) {
       text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", part.what, part.size);
     }
     neighbours.push_back({.one = &other,
-                          .similarity = memory::similarity_at(hit.difference),
+                          .similarity = match::similarity_at(hit.difference),
                           .differs = text.empty() ? "the same scene" : "differs: " + text});
   }
   return neighbours;

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "saca/memory/case.h"
+#include "saca/thinking/memory/case.h"
 
 namespace saca::app {
 

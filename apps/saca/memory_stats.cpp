@@ -13,10 +13,10 @@
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/clock.h"
-#include "saca/core/percentile.h"
-#include "saca/memory/coverage.h"
-#include "saca/memory/similarity.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/percentile.h"
+#include "saca/onboard/match/similarity.h"
+#include "saca/thinking/memory/coverage.h"
 
 namespace saca::app {
 namespace {
@@ -44,9 +44,9 @@ BankTimes timed(const memory::Experience& experience, const std::vector<memory::
   std::vector<double> times;
   times.reserve(cases.size() / step + 1);
   for (std::size_t i = 0; i < cases.size(); i += step) {
-    const std::array<memory::CaseId, 1> own{cases[i].id};
+    const std::array<match::CaseId, 1> own{cases[i].id};
     const Clock::Time begin = clock.now();
-    const auto features = memory::features(cases[i].scene);
+    const auto features = match::features(cases[i].scene);
     (void)experience.recall(features, own);
     constexpr double microseconds = 1e6;
     times.push_back(microseconds * to_seconds(clock.now() - begin));

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "apps/saca/printing.h"
-#include "saca/config/config.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/outcome/harm.h"
-#include "saca/reason/chat_address.h"
-#include "saca/reason/openai_model.h"
-#include "saca/reason/prompt.h"
+#include "saca/base/config/config.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/onboard/collision/harm.h"
+#include "saca/thinking/language_model/chat_address.h"
+#include "saca/thinking/language_model/openai_model.h"
+#include "saca/thinking/language_model/prompt.h"
 
 namespace saca::app {
 namespace {
@@ -28,28 +28,29 @@ constexpr std::string_view replay_prefix = "replay:";
 constexpr std::string_view weights_prefix = "local:";
 constexpr std::string_view llm_option = "--llm";
 
-Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file,
-                                                           runtime::Pace pace, Clock& clock) {
+Result<std::unique_ptr<language_model::LanguageModel>> open_replay(const std::string& file,
+                                                                   runtime::Pace pace,
+                                                                   Clock& clock) {
   const auto text = read_file(file);
   if (!text.has_value()) {
     return text.error();
   }
-  auto replies = reason::parse_replies(text.value(), file);
+  auto replies = language_model::parse_replies(text.value(), file);
   if (!replies.has_value()) {
     return replies.error();
   }
-  const auto when =
-      pace == runtime::Pace::real ? reason::ReplayPace::as_recorded : reason::ReplayPace::at_once;
-  return std::unique_ptr<reason::LanguageModel>(
-      std::make_unique<reason::ReplayModel>(std::move(replies).value(), when, clock));
+  const auto when = pace == runtime::Pace::real ? language_model::ReplayPace::as_recorded
+                                                : language_model::ReplayPace::at_once;
+  return std::unique_ptr<language_model::LanguageModel>(
+      std::make_unique<language_model::ReplayModel>(std::move(replies).value(), when, clock));
 }
 
 Result<std::string> system_part(const Places& places) {
-  const auto harm = outcome::read_harm(places.root / "data" / "harm.toml");
+  const auto harm = collision::read_harm(places.root / "data" / "harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }
-  return reason::system_part(harm.value());
+  return language_model::system_part(harm.value());
 }
 
 /// By which the answers of these weights are softened, so that a probability is how often it is so;
@@ -97,34 +98,34 @@ std::string fingerprint(const fs::path& weights, std::string_view system, double
   hash.add(system);
   hash.add(std::bit_cast<std::uint64_t>(temperature));
   hash.add(static_cast<std::uint64_t>(flash_attention));
-  hash.add(static_cast<std::uint64_t>(reason::ChildModelSettings{}.max_tokens));
+  hash.add(static_cast<std::uint64_t>(language_model::ChildModelSettings{}.max_tokens));
   return fmt::format("{:08x}", hash.value() >> 32U);
 }
 
 /// "MODEL@URL"
-Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
-                                                           const std::string& choice,
-                                                           std::size_t at, Clock& clock) {
+Result<std::unique_ptr<language_model::LanguageModel>> open_server(const Places& places,
+                                                                   const std::string& choice,
+                                                                   std::size_t at, Clock& clock) {
   auto system = system_part(places);
   if (!system.has_value()) {
     return system.error();
   }
   const char* const key = std::getenv("SACA_LLM_KEY");
-  reason::OpenAiModelSettings settings{.url = choice.substr(at + 1),
-                                       .model = choice.substr(0, at),
-                                       .key = key == nullptr ? "" : key,
-                                       .system = std::move(system).value()};
-  const auto address = reason::chat_address(settings.url, !settings.key.empty());
+  language_model::OpenAiModelSettings settings{.url = choice.substr(at + 1),
+                                               .model = choice.substr(0, at),
+                                               .key = key == nullptr ? "" : key,
+                                               .system = std::move(system).value()};
+  const auto address = language_model::chat_address(settings.url, !settings.key.empty());
   if (!address.has_value()) {
     return Error{address.error().code, "--llm: " + address.error().message};
   }
-  return std::unique_ptr<reason::LanguageModel>(
-      std::make_unique<reason::OpenAiModel>(std::move(settings), clock));
+  return std::unique_ptr<language_model::LanguageModel>(
+      std::make_unique<language_model::OpenAiModel>(std::move(settings), clock));
 }
 
-Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
-                                                         const ModelChoice& choice,
-                                                         runtime::Pace pace, Clock& clock) {
+Result<std::unique_ptr<language_model::ChildModel>> open_weights(const Places& places,
+                                                                 const ModelChoice& choice,
+                                                                 runtime::Pace pace, Clock& clock) {
   const std::optional<fs::path>& weights = choice.weights;
   std::error_code problem;
   if (!std::filesystem::exists(places.model_host, problem)) {
@@ -157,10 +158,10 @@ Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
   if (pace == runtime::Pace::real) {
     command.emplace_back("--give-way");
   }
-  auto model = std::make_unique<reason::ChildModel>(
-      reason::ChildModelSettings{.command = std::move(command),
-                                 .system = std::move(system).value(),
-                                 .identity = name + " " + print},
+  auto model = std::make_unique<language_model::ChildModel>(
+      language_model::ChildModelSettings{.command = std::move(command),
+                                         .system = std::move(system).value(),
+                                         .identity = name + " " + print},
       clock);
   if (const auto failure = model->wait_until_ready(clock.now() + loading_time)) {
     return *failure;
@@ -170,17 +171,19 @@ Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
 
 }  // namespace
 
-Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
-                                                             runtime::Pace pace, Clock& clock) {
+Result<std::unique_ptr<language_model::ChildModel>> open_local_model(const Places& places,
+                                                                     runtime::Pace pace,
+                                                                     Clock& clock) {
   return open_weights(places, find_model_choice(places), pace, clock);
 }
 
 namespace {
 
 /// nullptr: off.
-Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
-                                                          const std::string& choice,
-                                                          runtime::Pace pace, Clock& clock) {
+Result<std::unique_ptr<language_model::LanguageModel>> open_model(const Places& places,
+                                                                  const std::string& choice,
+                                                                  runtime::Pace pace,
+                                                                  Clock& clock) {
   if (choice == "local" || choice.starts_with(weights_prefix)) {
     ModelChoice mine = find_model_choice(places);
     if (choice != "local") {
@@ -190,7 +193,7 @@ Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
     if (!local.has_value()) {
       return local.error();
     }
-    return std::unique_ptr<reason::LanguageModel>(std::move(local).value());
+    return std::unique_ptr<language_model::LanguageModel>(std::move(local).value());
   }
   if (choice.starts_with(replay_prefix)) {
     return open_replay(choice.substr(replay_prefix.size()), pace, clock);
@@ -199,7 +202,7 @@ Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
     return open_server(places, choice, at, clock);
   }
   if (choice == "off") {
-    return std::unique_ptr<reason::LanguageModel>();
+    return std::unique_ptr<language_model::LanguageModel>();
   }
   return Error{
       Error::Code::malformed,
@@ -220,16 +223,17 @@ Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& c
     return model.error();
   }
   if (chosen.model_ && !record.empty()) {
-    chosen.recording_ = std::make_unique<reason::RecordingModel>(*chosen.model_, clock);
+    chosen.recording_ = std::make_unique<language_model::RecordingModel>(*chosen.model_, clock);
     chosen.record_ = record;
   }
   return chosen;
 }
 
-Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(const Places& places,
-                                                                 const std::string& choice,
-                                                                 runtime::Pace pace, Clock& clock,
-                                                                 std::string_view option) {
+Result<std::unique_ptr<language_model::LanguageModel>> open_needed_model(const Places& places,
+                                                                         const std::string& choice,
+                                                                         runtime::Pace pace,
+                                                                         Clock& clock,
+                                                                         std::string_view option) {
   auto model = open_model(places, choice, pace, clock);
   if (model.has_value() && model.value() == nullptr) {
     return Error{Error::Code::malformed,
@@ -245,7 +249,7 @@ Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(const Places& p
   return model;
 }
 
-reason::LanguageModel* ChosenModel::get() const {
+language_model::LanguageModel* ChosenModel::get() const {
   return recording_ ? recording_.get() : model_.get();
 }
 

@@ -7,26 +7,25 @@
 #include <string_view>
 
 #include "apps/saca/places.h"
-#include "saca/core/clock.h"
-#include "saca/core/result.h"
-#include "saca/loop/encounter.h"
-#include "saca/reason/child_model.h"
-#include "saca/reason/language_model.h"
-#include "saca/reason/replay_model.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/result.h"
+#include "saca/lab/encounter/encounter.h"
+#include "saca/thinking/language_model/child_model.h"
+#include "saca/thinking/language_model/language_model.h"
+#include "saca/thinking/language_model/replay_model.h"
 
 namespace saca::app {
 
 /// The model of `make model` in its own process, ready for questions. At real pace it gives way to
 /// whoever else wants the cores; in lockstep a reply does not depend on what else the machine does.
 /// @return  an error that says what is missing and how to get it
-[[nodiscard]] Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
-                                                                           runtime::Pace pace,
-                                                                           Clock& clock);
+[[nodiscard]] Result<std::unique_ptr<language_model::ChildModel>> open_local_model(
+    const Places& places, runtime::Pace pace, Clock& clock);
 
 /// A model as `--llm` names it, for commands that are nothing without one.
 /// @param option  that named it, for messages
 /// @return        never nullptr; an error where it is off or not there
-[[nodiscard]] Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(
+[[nodiscard]] Result<std::unique_ptr<language_model::LanguageModel>> open_needed_model(
     const Places& places, const std::string& choice, runtime::Pace pace, Clock& clock,
     std::string_view option = "--llm");
 
@@ -44,13 +43,13 @@ class ChosenModel {
                                                 Clock& clock);
 
   /// nullptr: off.
-  [[nodiscard]] reason::LanguageModel* get() const;
+  [[nodiscard]] language_model::LanguageModel* get() const;
   /// Writes the replies that were to be recorded, if any.
   [[nodiscard]] std::optional<Error> save_replies() const;
 
  private:
-  std::unique_ptr<reason::LanguageModel> model_;
-  std::unique_ptr<reason::RecordingModel> recording_;
+  std::unique_ptr<language_model::LanguageModel> model_;
+  std::unique_ptr<language_model::RecordingModel> recording_;
   std::filesystem::path record_;
 };
 

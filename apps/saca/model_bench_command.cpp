@@ -13,19 +13,19 @@
 #include "apps/saca/model.h"
 #include "apps/saca/model_commands.h"
 #include "apps/saca/printing.h"
-#include "saca/core/percentile.h"
-#include "saca/reason/child_model.h"
-#include "saca/reason/example_situation.h"
-#include "saca/reason/prompt.h"
+#include "saca/base/core/percentile.h"
+#include "saca/thinking/language_model/child_model.h"
+#include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/prompt.h"
 
 namespace saca::app {
 namespace {
 
-using reason::Answer;
-using reason::ChildModel;
-using reason::LanguageModel;
-using reason::Progress;
-using reason::Reply;
+using language_model::Answer;
+using language_model::ChildModel;
+using language_model::LanguageModel;
+using language_model::Progress;
+using language_model::Reply;
 
 constexpr double preview_time = 4.2;    // [s]: T2 - T1 of the paper
 constexpr double without_haste = 60.0;  // [s]
@@ -34,10 +34,10 @@ constexpr double without_haste = 60.0;  // [s]
 std::vector<std::string> example_scenes() {
   std::vector<std::string> scenes;
   for (const double speed : {7.5, 5.0, 2.5}) {
-    preview::Situation situation = reason::example_situation();
+    preview::Situation situation = language_model::example_situation();
     situation.scene_at_trigger.actors[0].v_W.y = -speed;
     situation.facts[1].outcome().contact->relative_speed += speed;
-    scenes.push_back(reason::scene_part(situation, std::nullopt, 0.0));
+    scenes.push_back(language_model::scene_part(situation, std::nullopt, 0.0));
   }
   return scenes;
 }
@@ -49,8 +49,8 @@ struct QuestionTiming {
   int missing = 0;     ///< scenes without any answer
   int forced = 0;      ///< scenes whose reply the deadline or the length cut
   std::vector<Reply> replies;
-  std::optional<Error> error;         ///< of the whole question
-  reason::ChildModelFigures figures;  ///< where the model is a child process
+  std::optional<Error> error;                 ///< of the whole question
+  language_model::ChildModelFigures figures;  ///< where the model is a child process
 };
 
 QuestionTiming ask(LanguageModel& model, const std::vector<std::string>& scenes, double budget,
@@ -131,7 +131,7 @@ std::vector<double> of(const std::vector<QuestionTiming>& all, double QuestionTi
 
 // Sum over all questions of prompt or reply tokens per second of the model's own time.
 double rate(const std::vector<QuestionTiming>& all, int Reply::*tokens,
-            double reason::ChildModelFigures::*time) {
+            double language_model::ChildModelFigures::*time) {
   double sum_tokens = 0.0;
   double sum_time = 0.0;
   for (const QuestionTiming& asked : all) {
@@ -148,7 +148,7 @@ double rate(const std::vector<QuestionTiming>& all, int Reply::*tokens,
 void put_child_figures(ChildModel& child, double load, const std::vector<QuestionTiming>& one,
                        const std::vector<QuestionTiming>& three, const Clock& clock,
                        BenchFigures& figures) {
-  using Parts = reason::ChildModelFigures;
+  using Parts = language_model::ChildModelFigures;
   figures.put("load_s", load);
   figures.put("system_tokens", child.figures().system_tokens);
   figures.put("restarts", child.restarts());

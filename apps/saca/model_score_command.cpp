@@ -12,7 +12,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
-#include "saca/eval/model_score.h"
+#include "saca/lab/eval/model_score.h"
 
 namespace saca::app {
 namespace {
@@ -34,7 +34,7 @@ json interval_of(const Estimate& estimate) {
 }
 
 /// What was said, beside what was carried out.
-json talk_of(const loop::ThinkingFigures& said) {
+json talk_of(const encounter::ThinkingFigures& said) {
   const auto share = [](int part, int of) {
     return of > 0 ? json(static_cast<double>(part) / of) : json();
   };
@@ -67,7 +67,7 @@ json document_of(const ModelScore& score, const ScoreOptions& options, const Sui
                                              {"sources", figures.sources}};
     if (key == "facts_reasoned" || key == "no_facts_reasoned") {
       document[key == "facts_reasoned" ? "with_facts" : "without_facts"] =
-          talk_of(figures.thinking.value_or(loop::ThinkingFigures{}));
+          talk_of(figures.thinking.value_or(encounter::ThinkingFigures{}));
     }
   }
   if (const auto& calibration = score.calibration) {

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "apps/saca/within.h"
-#include "saca/eval/decision_point.h"
+#include "saca/lab/eval/decision_point.h"
 
 namespace saca::app {
 

@@ -11,10 +11,10 @@
 #include "apps/saca/moment_option.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/oracle.h"
-#include "saca/outcome/describe.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/oracle.h"
+#include "saca/onboard/collision/describe.h"
 
 namespace saca::app {
 namespace {
@@ -31,7 +31,7 @@ struct OracleCommand {
   bool as_json = false;
 };
 
-json interval_of(const outcome::Mean& mean) {
+json interval_of(const forecast::Mean& mean) {
   return {{"mean", mean.value}, {"low", mean.low}, {"high", mean.high}};
 }
 
@@ -51,13 +51,13 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
   all["contact_share"] = {{"mean", verdict.expected.contact.share},
                           {"low", verdict.expected.contact.low},
                           {"high", verdict.expected.contact.high}};
-  const outcome::Outcome& written = facts.outcome();
+  const collision::Outcome& written = facts.outcome();
   all["as_written"] = {{"harm", written.harm},
                        {"collision_loss", written.collision_loss},
                        {"clearance_m", written.clearance},
                        {"text", describe(written, scene)}};
   if (written.contact) {
-    const outcome::Contact& contact = *written.contact;
+    const collision::Contact& contact = *written.contact;
     all["as_written"]["contact"] = {
         {"time_s", contact.time},
         {"with", contact.actor ? json(actor_name(scene.actors[*contact.actor])) : json()},
@@ -71,7 +71,7 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
 
 std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
   const preview::PolicyFacts& facts = verdict.written.facts;
-  const outcome::MeanOutcome& expected = verdict.expected;
+  const forecast::MeanOutcome& expected = verdict.expected;
   return fmt::format("{:26}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
                      manoeuvre::plan_text(facts.plan), expected.harm.value, expected.harm.low,
                      expected.harm.high, expected.collision_loss.value,
@@ -117,7 +117,7 @@ int run(const OracleCommand& options) {
   if (const auto problem = why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
-  const sim::Scenario& scenario = inputs.value().scenario;
+  const scenario::Scenario& scenario = inputs.value().scenario;
   const eval::Oracle oracle =
       eval::oracle(scenario, inputs.value().car, inputs.value().harm,
                    {*time.value(), options.draws, options.seed, options.threads});

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "saca/core/suggestion.h"
+#include "saca/base/core/suggestion.h"
 
 namespace saca::app {
 namespace {

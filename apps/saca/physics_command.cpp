@@ -9,12 +9,12 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/parallel.h"
-#include "saca/core/percentile.h"
-#include "saca/core/proportion.h"
-#include "saca/manoeuvre/draws.h"
-#include "saca/manoeuvre/drive.h"
-#include "saca/manoeuvre/physics_figures.h"
+#include "saca/base/core/parallel.h"
+#include "saca/base/core/percentile.h"
+#include "saca/base/core/proportion.h"
+#include "saca/lab/tune/draws.h"
+#include "saca/lab/verification/physics_figures.h"
+#include "saca/onboard/manoeuvre/drive.h"
 
 namespace saca::app {
 namespace {
@@ -32,7 +32,7 @@ struct PhysicsOptions {
 /// The default car's table: ours beside the reference.
 void add_figures(const manoeuvre::Car& car, bool quiet, json& figures) {
   int outside = 0;
-  for (const manoeuvre::Figure& figure : manoeuvre::physics_figures(car)) {
+  for (const verification::Figure& figure : verification::physics_figures(car)) {
     outside += in_band(figure) ? 0 : 1;
     figures[figure.name] = figure.value;
     figures[figure.name + ".low"] = figure.low;
@@ -72,10 +72,10 @@ void add_drifts(const std::string& name, const manoeuvre::Car& car, const Physic
         }
         continue;
       }
-      const auto endings = manoeuvre::draw_endings(
-          car, plan, scene, grip, horizon, options.drift_draws, options.seed, 0, options.threads);
+      const auto endings = tune::draw_endings(car, plan, scene, grip, horizon, options.drift_draws,
+                                              options.seed, 0, options.threads);
       const Proportion across =
-          proportion(manoeuvre::num_across(endings, plan, scene.road), options.drift_draws);
+          proportion(tune::num_across(endings, plan, scene.road), options.drift_draws);
       std::vector<double> forward;
       std::vector<double> sideways;
       for (const auto& ending : endings) {

@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include "saca/outcome/describe.h"
+#include "saca/onboard/collision/describe.h"
 
 namespace saca::app {
 
-report::SceneView view_of(const world::Scene& scene, const loop::Hindsight& tried) {
+report::SceneView view_of(const world::Scene& scene, const encounter::Hindsight& tried) {
   const preview::PolicyFacts& facts = tried.facts;
   report::SceneView view;
   view.policy = facts.plan.policy;
@@ -30,7 +30,7 @@ report::SceneView view_of(const world::Scene& scene, const loop::Hindsight& trie
   return view;
 }
 
-report::ContactSheet sheet_of(const eval::Oracle& oracle, const sim::Scenario& scenario) {
+report::ContactSheet sheet_of(const eval::Oracle& oracle, const scenario::Scenario& scenario) {
   report::ContactSheet sheet;
   sheet.heading = scenario.title;
   sheet.lines = {scenario.why, scenario.source};

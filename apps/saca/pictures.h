@@ -3,18 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "saca/eval/oracle.h"
-#include "saca/eval/survey.h"
-#include "saca/report/contact_sheet.h"
-#include "saca/sim/scenario.h"
+#include "saca/lab/eval/oracle.h"
+#include "saca/lab/eval/survey.h"
+#include "saca/lab/report/contact_sheet.h"
+#include "saca/lab/scenario/scenario.h"
 
 namespace saca::app {
 
 /// One policy as written, ready to be drawn; the title is the policy's name.
-[[nodiscard]] report::SceneView view_of(const world::Scene& scene, const loop::Hindsight& tried);
+[[nodiscard]] report::SceneView view_of(const world::Scene& scene,
+                                        const encounter::Hindsight& tried);
 
 /// All eight of an oracle, best first.
 [[nodiscard]] report::ContactSheet sheet_of(const eval::Oracle& oracle,
-                                            const sim::Scenario& scenario);
+                                            const scenario::Scenario& scenario);
 
 }  // namespace saca::app

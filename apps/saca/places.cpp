@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "apps/saca/settings.h"
-#include "saca/config/json_text.h"
-#include "saca/core/file.h"
-#include "saca/core/printable.h"
-#include "saca/core/suggestion.h"
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/printable.h"
+#include "saca/base/core/suggestion.h"
 
 namespace saca::app {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/core/result.h"
+#include "saca/base/core/result.h"
 
 namespace saca::app {
 

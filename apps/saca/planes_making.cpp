@@ -3,17 +3,17 @@
 #include <utility>
 
 #include "apps/saca/atlas_making.h"
-#include "saca/loop/learnt_case.h"
+#include "saca/lab/encounter/learnt_case.h"
 
 namespace saca::app {
 
 Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs,
-                                                       const preview::Thresholds& thresholds) {
+                                                       const reflex::Thresholds& thresholds) {
   const auto costs = read_costs(inputs.places);
   if (!costs.has_value()) {
     return costs.error();
   }
-  manoeuvre::Atlas atlas = usual_atlas(inputs);
+  atlas::Atlas atlas = usual_atlas(inputs);
   std::unique_ptr<PlanesOfCar> planes(new PlanesOfCar{
       .inputs = std::move(inputs), .atlas = std::move(atlas), .clock = {}, .setup = {}});
   planes->setup = {.forecast = {.car = &planes->inputs.car,
@@ -27,7 +27,7 @@ Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs,
 }
 
 Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car,
-                                                       const preview::Thresholds& thresholds) {
+                                                       const reflex::Thresholds& thresholds) {
   auto inputs = read_inputs(car);
   if (!inputs.has_value()) {
     return inputs.error();
@@ -36,7 +36,7 @@ Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car,
 }
 
 std::vector<memory::MadeWith> made_with(const PlanesOfCar& planes) {
-  return loop::made_with(planes.setup.forecast, planes.inputs.intent, planes.inputs.car_name);
+  return encounter::made_with(planes.setup.forecast, planes.inputs.intent, planes.inputs.car_name);
 }
 
 }  // namespace saca::app

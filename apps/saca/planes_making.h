@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/core/clock.h"
-#include "saca/manoeuvre/atlas.h"
-#include "saca/memory/case.h"
+#include "saca/base/core/clock.h"
+#include "saca/onboard/atlas/atlas.h"
 #include "saca/runtime/planes.h"
+#include "saca/thinking/memory/case.h"
 
 namespace saca::app {
 
@@ -16,18 +16,18 @@ namespace saca::app {
 /// where it is: `setup` points to the rest.
 struct PlanesOfCar {
   Inputs inputs;
-  manoeuvre::Atlas atlas;
+  atlas::Atlas atlas;
   SteadyClock clock;
   runtime::PlanesSetup setup;
 };
 
 [[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(
-    Inputs inputs, const preview::Thresholds& thresholds = {});
+    Inputs inputs, const reflex::Thresholds& thresholds = {});
 /// @param car  its file, or the name of a shipped one
 [[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(
-    const std::string& car, const preview::Thresholds& thresholds = {});
+    const std::string& car, const reflex::Thresholds& thresholds = {});
 
-/// What a case is worked out with there (loop::made_with).
+/// What a case is worked out with there (encounter::made_with).
 [[nodiscard]] std::vector<memory::MadeWith> made_with(const PlanesOfCar& planes);
 
 }  // namespace saca::app

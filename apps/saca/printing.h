@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "saca/core/printable.h"
+#include "saca/base/core/printable.h"
 
 namespace saca::app {
 

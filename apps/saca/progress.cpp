@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "apps/saca/settings.h"
-#include "saca/core/printable.h"
+#include "saca/base/core/printable.h"
 
 namespace saca::app {
 namespace {

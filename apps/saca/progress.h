@@ -5,7 +5,7 @@
 #include <string_view>
 #include <thread>
 
-#include "saca/core/clock.h"
+#include "saca/base/core/clock.h"
 
 namespace saca::app {
 

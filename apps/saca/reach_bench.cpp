@@ -16,16 +16,16 @@
 
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "saca/config/json_text.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/core/percentile.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/reach/car_limits.h"
-#include "saca/reach/danger_cases.h"
-#include "saca/reach/own_systems.h"
-#include "saca/reach/solve.h"
-#include "saca/reach/solver.h"
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/base/core/percentile.h"
+#include "saca/lab/levelset/own_systems.h"
+#include "saca/lab/levelset/solve.h"
+#include "saca/lab/levelset/solver.h"
+#include "saca/onboard/manoeuvre/ego.h"
+#include "saca/thinking/danger/car_limits.h"
+#include "saca/thinking/danger/danger_cases.h"
 
 namespace saca::app {
 namespace {
@@ -61,13 +61,13 @@ struct Air3dRun {
 };
 
 template <class Real>
-Result<Air3dRun<Real>> air3d_run(const reach::Grid& grid, int threads, Clock& clock) {
+Result<Air3dRun<Real>> air3d_run(const danger::Grid& grid, int threads, Clock& clock) {
   constexpr double horizon = 2.8;
-  const reach::Air3d game;
-  const auto h = reach::sampled<Real>(
+  const levelset::Air3d game;
+  const auto h = danger::sampled<Real>(
       grid, [&](auto state) { return intrusion(game, state); }, threads);
-  reach::Solver<Real> solver(grid, reach::own_flow<Real>(grid, game), h,
-                             {.tube = reach::Tube::tube, .threads = threads});
+  levelset::Solver<Real> solver(grid, levelset::own_flow<Real>(grid, game), h,
+                                {.tube = levelset::Tube::tube, .threads = threads});
   Air3dRun<Real> run;
   const Clock::Time start = clock.now();
   for (; solver.time() < horizon; ++run.steps) {
@@ -107,7 +107,7 @@ std::optional<Error> bench_one_air3d(const AirGrid& size, const json& reference,
   const std::string name = fmt::format("{}x{}x{}", size.x, size.y, size.heading);
   const std::string before = "reach.air3d_" + name + ".";
   const std::string after = sizeof(Real) == sizeof(double) ? ".double" : "";
-  const reach::Grid grid = reach::air3d_grid(size.x, size.y, size.heading);
+  const danger::Grid grid = levelset::air3d_grid(size.x, size.y, size.heading);
   for (const int threads : {1, usual_threads()}) {
     note_progress(fmt::format("air3D {}, {}, threads: {}", name, after.empty() ? "float" : "double",
                               threads));
@@ -129,7 +129,7 @@ std::optional<Error> bench_one_air3d(const AirGrid& size, const json& reference,
       };
       const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
       figures[before + "volume_error" + after] =
-          error(reach::tube_volume<Real>(grid, values), "tube_volume_m2_rad");
+          error(levelset::tube_volume<Real>(grid, values), "tube_volume_m2_rad");
       figures[before + "least_value_error" + after] =
           error(static_cast<double>(*least), "least_value_m");
       figures[before + "greatest_value_error" + after] =
@@ -203,12 +203,12 @@ constexpr double avoid4d_cfl = 0.9;
 /// what it began with; neighbours are taken to be in a cache.
 constexpr double numbers_per_stage = (3.0 + 4.0) / avoid4d_stages;
 
-Result<reach::AvoidanceCase> parked_car_with_more_points(const fs::path& root) {
-  auto found = reach::read_avoidance_case(root / "data" / "reach" / "parked_car.toml");
+Result<danger::AvoidanceCase> parked_car_with_more_points(const fs::path& root) {
+  auto found = danger::read_avoidance_case(root / "data" / "reach" / "parked_car.toml");
   if (!found.has_value()) {
     return found.error();
   }
-  reach::AvoidanceCase parked = std::move(found).value();
+  danger::AvoidanceCase parked = std::move(found).value();
   parked.times = {4.0};
   parked.system.grip = dry_grip;
   constexpr std::array points{60, 26, 48, 28};  // 2.1 million
@@ -219,11 +219,11 @@ Result<reach::AvoidanceCase> parked_car_with_more_points(const fs::path& root) {
 }
 
 /// @return  the solution
-Result<reach::Solution> bench_avoid4d(const reach::AvoidanceCase& parked, Clock& clock,
-                                      json& figures) {
-  const reach::Problem problem = avoidance_problem(parked);
-  const reach::Scheme scheme{
-      .steps = reach::Steps::tvd_rk2, .cfl = avoid4d_cfl, .threads = usual_threads()};
+Result<danger::Solution> bench_avoid4d(const danger::AvoidanceCase& parked, Clock& clock,
+                                       json& figures) {
+  const levelset::Problem problem = levelset::avoidance_problem(parked);
+  const levelset::Scheme scheme{
+      .steps = levelset::Steps::tvd_rk2, .cfl = avoid4d_cfl, .threads = usual_threads()};
   const auto points = static_cast<double>(num_cells(problem.grid));
   note_progress(fmt::format("a parked car in four dimensions, {:.0f} points", points));
   int steps = 0;
@@ -233,18 +233,18 @@ Result<reach::Solution> bench_avoid4d(const reach::AvoidanceCase& parked, Clock&
   const double memory_before = own_memory("VmRSS");
   const Clock::Time start = clock.now();
   auto solved =
-      reach::solve(problem, scheme, std::nullopt, {.step = [&](double tau) {
-                     if (tau > reached) {  // else: on half as many points, for the error
-                       reached = tau;
-                       last = clock.now();
-                       first = steps++ == 0 ? last : first;
-                     }
-                     if (tau >= told + 1.0) {
-                       told = tau;
-                       note_progress(fmt::format("{:.1f} of {:g} s", tau, problem.times.back()));
-                     }
-                     return true;
-                   }});
+      levelset::solve(problem, scheme, std::nullopt, {.step = [&](double tau) {
+                        if (tau > reached) {  // else: on half as many points, for the error
+                          reached = tau;
+                          last = clock.now();
+                          first = steps++ == 0 ? last : first;
+                        }
+                        if (tau >= told + 1.0) {
+                          told = tau;
+                          note_progress(fmt::format("{:.1f} of {:g} s", tau, problem.times.back()));
+                        }
+                        return true;
+                      }});
   figures["reach.avoid4d.seconds"] = to_seconds(clock.now() - start);
   const double peak = own_memory("VmHWM");
   if (!solved.has_value()) {
@@ -298,15 +298,15 @@ void bench_calls(const std::string& name, const Call& call, Clock& clock, json& 
 /// Every call somewhere else: what the memory takes is in it.
 constexpr std::size_t num_look_ups = std::size_t{1} << 16;
 
-void bench_look_up(const reach::Solution& solved, Clock& clock, json& figures) {
+void bench_look_up(const danger::Solution& solved, Clock& clock, json& figures) {
   note_progress("look-ups");
-  const reach::ValueTable table(solved.grid, snapshot(solved, 0), solved.error);
+  const danger::ValueTable table(solved.grid, snapshot(solved, 0), solved.error);
   std::mt19937 rng(1);
-  std::vector<reach::State> states(num_look_ups);
-  for (reach::State& state : states) {
+  std::vector<danger::State> states(num_look_ups);
+  for (danger::State& state : states) {
     for (std::size_t d = 0; d < solved.grid.axes.size(); ++d) {
-      const reach::Axis& axis = solved.grid.axes[d];
-      const double first = axis.edge == reach::Edge::mirrored ? -axis.last : axis.first;
+      const danger::Axis& axis = solved.grid.axes[d];
+      const double first = axis.edge == danger::Edge::mirrored ? -axis.last : axis.first;
       state[d] = std::uniform_real_distribution<double>(first, axis.last)(rng);
     }
   }
@@ -317,27 +317,27 @@ void bench_look_up(const reach::Solution& solved, Clock& clock, json& figures) {
 
 /// A car's two tables, at rest and at 5 m/s, as large as those of `saca run`; solved to 0.5 s only,
 /// which the time of a look-up does not depend on.
-Result<std::vector<reach::DangerTable>> two_tables(const reach::Avoidance& limits,
-                                                   const world::Footprint& ego,
-                                                   const world::Footprint& other) {
-  std::vector<reach::DangerTable> tables;
-  const std::array wanted{reach::ObstacleKind{other, 5.0}};
-  const auto cases = reach::danger_cases(limits, ego, dry_grip, wanted);
+Result<std::vector<danger::DangerTable>> two_tables(const danger::Avoidance& limits,
+                                                    const world::Footprint& ego,
+                                                    const world::Footprint& other) {
+  std::vector<danger::DangerTable> tables;
+  const std::array wanted{danger::ObstacleKind{other, 5.0}};
+  const auto cases = danger::danger_cases(limits, ego, dry_grip, wanted);
   if (!cases.has_value()) {
     return cases.error();
   }
-  for (const reach::DangerCase& one : cases.value()) {
+  for (const danger::DangerCase& one : cases.value()) {
     note_progress("a table of danger, " + one.name);
-    reach::Problem problem = avoidance_problem(one.asked);
+    levelset::Problem problem = levelset::avoidance_problem(one.asked);
     problem.times = {0.5};
     const auto solved =
-        reach::solve(problem, {.threads = usual_threads()}, std::nullopt, reach::Onlooker{});
+        levelset::solve(problem, {.threads = usual_threads()}, std::nullopt, levelset::Onlooker{});
     if (!solved.has_value()) {
       return solved.error();
     }
     tables.push_back({*one.asked.obstacle, one.asked.system.obstacle_speed, one.asked.view,
-                      std::make_shared<reach::ValueTable>(problem.grid, snapshot(solved.value(), 0),
-                                                          solved.value().error)});
+                      std::make_shared<danger::ValueTable>(
+                          problem.grid, snapshot(solved.value(), 0), solved.value().error)});
   }
   return tables;
 }
@@ -345,21 +345,21 @@ Result<std::vector<reach::DangerTable>> two_tables(const reach::Avoidance& limit
 std::optional<Error> bench_risk(const manoeuvre::Car& car, Clock& clock, json& figures) {
   const world::Footprint ego = manoeuvre::footprint(car);
   const world::Footprint other{.length = 4.5, .width = 1.8};
-  const reach::Avoidance limits = reach::avoidance_of(car, dry_grip);
+  const danger::Avoidance limits = danger::avoidance_of(car, dry_grip);
   auto tables = two_tables(limits, ego, other);
   if (!tables.has_value()) {
     return tables.error();
   }
-  const reach::DangerModel model(limits, ego, std::move(tables).value());
+  const danger::DangerModel model(limits, ego, std::move(tables).value());
   std::mt19937 rng(1);
   const auto any = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(rng);
   };
-  std::vector<reach::Meeting> meetings;
+  std::vector<danger::Meeting> meetings;
   int exact = 0;
   for (std::size_t i = 0; i < num_look_ups; ++i) {
     meetings.push_back({.ego = ego, .obstacle = other, .grip = dry_grip});
-    reach::Meeting& meeting = meetings.back();
+    danger::Meeting& meeting = meetings.back();
     meeting.obstacle_speed = any(0.0, 5.0);
     meeting.state = {any(-50.0, 5.0), any(-10.0, 10.0), any(-0.5, 0.5), any(5.0, 28.0)};
     exact += model.danger(meeting).exact ? 1 : 0;
@@ -369,7 +369,7 @@ std::optional<Error> bench_risk(const manoeuvre::Car& car, Clock& clock, json& f
   const auto beyond = std::partition(meetings.begin(), meetings.end(), [&](const auto& meeting) {
     return model.exact(meeting).has_value();
   });
-  const auto bench = [&](const std::string& name, std::span<const reach::Meeting> some,
+  const auto bench = [&](const std::string& name, std::span<const danger::Meeting> some,
                          std::size_t num_samples) {
     bench_calls(
         name, [&](std::size_t i) { return model.danger(some[i % some.size()]).value; }, clock,

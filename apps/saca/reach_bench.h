@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "saca/core/clock.h"
-#include "saca/core/result.h"
-#include "saca/manoeuvre/car.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/result.h"
+#include "saca/onboard/manoeuvre/car.h"
 
 namespace saca::app {
 

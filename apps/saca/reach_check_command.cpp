@@ -11,16 +11,16 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/reach/convergence.h"
-#include "saca/report/chart_svg.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/report/chart_svg.h"
+#include "saca/lab/verification/convergence.h"
 
 namespace saca::app {
 namespace {
 
-using reach::Refinement;
 using report::ChartColour;
+using verification::Refinement;
 
 struct CheckOptions {
   int grids = 4;
@@ -70,7 +70,7 @@ int check(const CheckOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.picture})) {
     return refused(*problem);
   }
-  const std::vector<Refinement> all = reach::refinements(options.grids, usual_threads());
+  const std::vector<Refinement> all = verification::refinements(options.grids, usual_threads());
   nlohmann::json figures;
   for (const Refinement& one : all) {
     const std::string name = "reach.check." + figure_name(one.name);

@@ -13,22 +13,22 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/core/units.h"
-#include "saca/reach/authors_comparison.h"
-#include "saca/reach/avoidance_case.h"
-#include "saca/reach/obstacle_frame.h"
-#include "saca/reach/value_file.h"
-#include "saca/reach/value_table.h"
-#include "saca/report/authors_page.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/report/authors_page.h"
+#include "saca/lab/verification/authors_comparison.h"
+#include "saca/thinking/danger/avoidance_case.h"
+#include "saca/thinking/danger/obstacle_frame.h"
+#include "saca/thinking/danger/value_file.h"
+#include "saca/thinking/danger/value_table.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using reach::Agreement;
-using reach::AuthorsComparison;
+using verification::Agreement;
+using verification::AuthorsComparison;
 
 struct CompareOptions {
   std::string file;
@@ -40,8 +40,8 @@ struct CompareOptions {
 };
 
 /// The network knows of one obstacle and of no motion of it.
-std::optional<Error> not_comparable(const std::string& file, const reach::Solution& solved) {
-  const auto problem = reach::parse_avoidance_case(solved.problem, file);
+std::optional<Error> not_comparable(const std::string& file, const danger::Solution& solved) {
+  const auto problem = danger::parse_avoidance_case(solved.problem, file);
   if (!problem.has_value()) {
     return Error{Error::Code::malformed,
                  file + ": want a solved case of avoidance; " + problem.error().message};
@@ -51,9 +51,9 @@ std::optional<Error> not_comparable(const std::string& file, const reach::Soluti
                  fmt::format("{}: want a whole solution, got one that was stopped at {:.3g} s",
                              file, solved.times.back())};
   }
-  if (reach::view_of(solved).value_or(reach::View::edge) == reach::View::edge) {
+  if (danger::view_of(solved).value_or(danger::View::edge) == danger::View::edge) {
     std::string came;
-    for (const reach::Axis& axis : solved.grid.axes) {
+    for (const danger::Axis& axis : solved.grid.axes) {
       came += (came.empty() ? "" : ", ") + axis.name;
     }
     return Error{Error::Code::malformed,
@@ -120,7 +120,7 @@ int compare_values(const CompareOptions& options) {
   if (!is_png_or_html(options.output)) {
     return wrong_command_line;
   }
-  const auto solved = reach::read_solved(options.file);
+  const auto solved = danger::read_solved(options.file);
   if (!solved.has_value()) {
     return refused(solved.error());
   }
@@ -130,14 +130,14 @@ int compare_values(const CompareOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  const auto network = reach::read_authors_network(options.network);
+  const auto network = verification::read_authors_network(options.network);
   if (!network.has_value()) {
     return refused(network.error());
   }
-  const reach::ValueTable table(solved.value().grid,
-                                snapshot(solved.value(), solved.value().times.size() - 1));
-  const reach::View view = reach::view_of(solved.value()).value_or(reach::View::obstacle);
-  const reach::ValueAt value = in_obstacle_frame(table, view);
+  const danger::ValueTable table(solved.value().grid,
+                                 snapshot(solved.value(), solved.value().times.size() - 1));
+  const danger::View view = danger::view_of(solved.value()).value_or(danger::View::obstacle);
+  const danger::ValueAt value = in_obstacle_frame(table, view);
   const AuthorsComparison found = compare_with_authors(value, network.value());
   const std::string& text = solved.value().problem;
   const report::AuthorsPage page{.case_name = report::problem_name(text).value_or(options.file),

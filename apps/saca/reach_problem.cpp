@@ -2,16 +2,16 @@
 
 #include <filesystem>
 
-#include "saca/core/file.h"
-#include "saca/reach/avoidance_case.h"
+#include "saca/base/core/file.h"
+#include "saca/thinking/danger/avoidance_case.h"
 
 namespace saca::app {
 
 namespace fs = std::filesystem;
 
-Result<reach::Problem> find_problem(const Places& places, const std::string& name) {
+Result<levelset::Problem> find_problem(const Places& places, const std::string& name) {
   if (name == "air3d") {
-    return reach::air3d_problem(reach::air3d_grid(101, 79, 100));
+    return levelset::air3d_problem(levelset::air3d_grid(101, 79, 100));
   }
   const auto found_file = find_reach_case(places, name);
   if (!found_file.has_value()) {
@@ -22,11 +22,11 @@ Result<reach::Problem> find_problem(const Places& places, const std::string& nam
   if (!text.has_value()) {
     return text.error();
   }
-  const auto found = reach::parse_avoidance_case(text.value(), path.string());
+  const auto found = danger::parse_avoidance_case(text.value(), path.string());
   if (!found.has_value()) {
     return found.error();
   }
-  return reach::avoidance_problem(found.value());
+  return levelset::avoidance_problem(found.value());
 }
 
 }  // namespace saca::app

@@ -15,21 +15,21 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/core/vec2.h"
-#include "saca/reach/obstacle_frame.h"
-#include "saca/reach/value_file.h"
-#include "saca/reach/value_table.h"
-#include "saca/report/html_report.h"
-#include "saca/report/value_json.h"
-#include "saca/report/value_map.h"
-#include "saca/report/value_png.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/vec2.h"
+#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/value_json.h"
+#include "saca/lab/report/value_map.h"
+#include "saca/lab/report/value_png.h"
+#include "saca/thinking/danger/obstacle_frame.h"
+#include "saca/thinking/danger/value_file.h"
+#include "saca/thinking/danger/value_table.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using reach::Solution;
+using danger::Solution;
 using report::ReadUnit;
 
 struct ReachShowOptions {
@@ -79,30 +79,30 @@ Result<std::vector<Wish>> wishes_of(const ReachShowOptions& options) {
   return wishes;
 }
 
-std::string with_unit(double value, const reach::Axis& axis) {
+std::string with_unit(double value, const danger::Axis& axis) {
   const ReadUnit read = report::read_unit(axis.name);
   return fmt::format("{:.4g}{}{}", value * read.factor, read.unit.empty() ? "" : " ", read.unit);
 }
 
 /// 0 where the axis has it inside, else its middle.
-double usual_coordinate(const reach::Axis& axis) {
+double usual_coordinate(const danger::Axis& axis) {
   const bool around_zero = axis.first < 0.0 && axis.last > 0.0;
-  return around_zero || axis.edge == reach::Edge::mirrored ? 0.0 : 0.5 * (axis.first + axis.last);
+  return around_zero || axis.edge == danger::Edge::mirrored ? 0.0 : 0.5 * (axis.first + axis.last);
 }
 
-std::string names_of(const std::vector<reach::Axis>& axes) {
+std::string names_of(const std::vector<danger::Axis>& axes) {
   std::vector<std::string> names;
   names.reserve(axes.size());
-  for (const reach::Axis& axis : axes) {
+  for (const danger::Axis& axis : axes) {
     names.push_back(axis.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// Coordinates from the third axis on.
-Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
-                                       const std::vector<Wish>& wishes, const std::string& file) {
-  reach::State others{};
+Result<danger::State> other_coordinates(const std::vector<danger::Axis>& axes,
+                                        const std::vector<Wish>& wishes, const std::string& file) {
+  danger::State others{};
   for (std::size_t d = 2; d < axes.size(); ++d) {
     others[d] = usual_coordinate(axes[d]);
   }
@@ -114,7 +114,7 @@ Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
                    fmt::format("{}: {} is asked for twice", file, wish.axis)};
     }
     const auto axis = std::find_if(axes.begin() + 2, axes.end(),
-                                   [&](const reach::Axis& a) { return a.name == wish.axis; });
+                                   [&](const danger::Axis& a) { return a.name == wish.axis; });
     if (axis == axes.end()) {
       return Error{Error::Code::out_of_range,
                    fmt::format("{}: no axis '{}' beyond the plane that is shown; the axes are {}, "
@@ -122,9 +122,9 @@ Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
                                file, wish.axis, names_of(axes))};
     }
     const double value = wish.value / report::read_unit(axis->name).factor;
-    const double least = axis->edge == reach::Edge::mirrored ? -axis->last : axis->first;
+    const double least = axis->edge == danger::Edge::mirrored ? -axis->last : axis->first;
     constexpr double rounding = 1e-9;
-    const double turn = axis->edge == reach::Edge::periodic ? axis->last - axis->first : 0.0;
+    const double turn = axis->edge == danger::Edge::periodic ? axis->last - axis->first : 0.0;
     if (!(value >= least - turn - rounding && value <= axis->last + turn + rounding)) {
       return Error{
           Error::Code::out_of_range,
@@ -141,7 +141,7 @@ Result<std::size_t> chosen_snapshot(const Solution& solved, std::optional<double
   if (!time) {
     return solved.times.size() - 1;
   }
-  const std::size_t nearest = reach::nearest_snapshot(solved, *time);
+  const std::size_t nearest = danger::nearest_snapshot(solved, *time);
   constexpr double same = 1e-3;  // [s]: what is typed is rounded
   if (!(std::abs(solved.times[nearest] - *time) <= same)) {
     return Error{Error::Code::out_of_range,
@@ -152,19 +152,19 @@ Result<std::size_t> chosen_snapshot(const Solution& solved, std::optional<double
 }
 
 /// The whole axis; a mirrored one to both sides, where its mirror turns no axis of the plane.
-report::MapRange shown_range(const reach::Axis& axis) {
-  const bool both = axis.edge == reach::Edge::mirrored && axis.turned.value_or(2) >= 2;
+report::MapRange shown_range(const danger::Axis& axis) {
+  const bool both = axis.edge == danger::Edge::mirrored && axis.turned.value_or(2) >= 2;
   return {both ? -axis.last : axis.first, axis.last};
 }
 
-report::PlotAxis plot_axis_of(const reach::Axis& axis, const report::MapRange& range) {
+report::PlotAxis plot_axis_of(const danger::Axis& axis, const report::MapRange& range) {
   const ReadUnit read = report::read_unit(axis.name);
   return {axis.name, read.unit, range.low * read.factor, range.high * read.factor};
 }
 
 /// "V over x and y at course 0 deg, speed 12 m/s, horizon 4 s"
 std::string what_is_shown(const Solution& solved, const report::ValueView& view) {
-  const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
+  const std::vector<danger::Axis> axes = report::shown_axes(solved, view.others[2]);
   std::string words = fmt::format("V over {} and {}", axes[0].name, axes[1].name);
   for (std::size_t d = 2; d < axes.size(); ++d) {
     words += fmt::format("{} {} {}", d == 2 ? " at" : ",", axes[d].name,
@@ -178,24 +178,24 @@ std::string what_is_shown(const Solution& solved, const report::ValueView& view)
 report::ValueMap map_of(const Solution& solved, const report::ValueView& view,
                         const report::MapRange& x, const report::MapRange& y,
                         const report::RasterSize& size) {
-  const reach::ValueTable table(solved.grid, reach::snapshot(solved, view.time));
-  if (reach::view_of(solved) == reach::View::ego) {
-    return report::value_map(reach::in_obstacle_frame(table, reach::View::ego), x, y, size.columns,
-                             size.rows, view.others);
+  const danger::ValueTable table(solved.grid, danger::snapshot(solved, view.time));
+  if (danger::view_of(solved) == danger::View::ego) {
+    return report::value_map(danger::in_obstacle_frame(table, danger::View::ego), x, y,
+                             size.columns, size.rows, view.others);
   }
   return report::value_map(table, x, y, size.columns, size.rows, view.others);
 }
 
 double usual_zoom(const Solution& solved, const report::ValueView& view) {
   constexpr report::RasterSize coarse{160, 160};
-  const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
+  const std::vector<danger::Axis> axes = report::shown_axes(solved, view.others[2]);
   const report::MapRange x = shown_range(axes[0]);
   const report::MapRange y = shown_range(axes[1]);
   return report::zoom_on_danger(map_of(solved, view, x, y, coarse), report::zoom_middle(x, y));
 }
 
 Result<std::string> png_of(const Solution& solved, const report::ValueView& view) {
-  const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
+  const std::vector<danger::Axis> axes = report::shown_axes(solved, view.others[2]);
   const report::MapRange all_x = shown_range(axes[0]);
   const report::MapRange all_y = shown_range(axes[1]);
   const Vec2 middle = report::zoom_middle(all_x, all_y);
@@ -227,7 +227,7 @@ int show(const ReachShowOptions& options) {
     complain(wishes.error().message);
     return wrong_command_line;
   }
-  const auto read = reach::read_solved(options.file);
+  const auto read = danger::read_solved(options.file);
   if (!read.has_value()) {
     return refused(read.error());
   }

@@ -20,19 +20,19 @@
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/reach_problem.h"
 #include "apps/saca/within.h"
-#include "saca/core/clock.h"
-#include "saca/core/names.h"
-#include "saca/core/parallel.h"
-#include "saca/reach/solve.h"
-#include "saca/reach/value_file.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/names.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/levelset/solve.h"
+#include "saca/thinking/danger/value_file.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using reach::Problem;
-using reach::Scheme;
-using reach::Solution;
+using danger::Solution;
+using levelset::Problem;
+using levelset::Scheme;
 
 struct SolveOptions {
   std::string name;
@@ -80,7 +80,7 @@ Result<std::optional<Solution>> begun(const fs::path& part) {
   if (!fs::exists(part, none)) {
     return std::optional<Solution>();
   }
-  auto there = reach::read_solved(part);
+  auto there = danger::read_solved(part);
   if (!there.has_value()) {
     return there.error();
   }
@@ -141,14 +141,14 @@ int solve_case(const SolveOptions& options) {
   const int remembered =
       before.value() ? static_cast<int>(permille * before.value()->times.back() / horizon) : 0;
   ProgressLine line(options.name, permille, clock);
-  const auto solved = reach::solve(
+  const auto solved = levelset::solve(
       problem.value(), options.scheme, std::move(before).value(),
       {.step =
            [&](double tau) {
              line.show(static_cast<int>(permille * tau / horizon), remembered, " per mille");
              return !interrupted();
            },
-       .keep = [&](const Solution& so_far) { return reach::write_solved(part, so_far); }});
+       .keep = [&](const Solution& so_far) { return danger::write_solved(part, so_far); }});
   if (!solved.has_value()) {
     return refused({solved.error().code, options.name + ": " + solved.error().message});
   }
@@ -179,10 +179,10 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
   command->add_option("case", options->name, "air3d, a name in data/reach, or a file")->required();
   command->add_option("--output", options->output, "HDF5 file; default: reach/CASE.h5");
   command->add_option("--differences", options->differences, "upwind1, eno2, eno3 or weno5")
-      ->check(one_of(texts_of(reach::difference_names)))
+      ->check(one_of(texts_of(levelset::difference_names)))
       ->capture_default_str();
   command->add_option("--steps", options->steps, "Runge-Kutta: euler, rk2 or rk3")
-      ->check(one_of(texts_of(reach::step_names)))
+      ->check(one_of(texts_of(levelset::step_names)))
       ->capture_default_str();
   command->add_option("--cfl", options->scheme.cfl, "Share of the longest stable step")
       ->check(within(0.01, 1.0))
@@ -201,8 +201,9 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
       options->output = "reach/" + fs::path(options->name).stem().string() + ".h5";
     }
     options->scheme.differences =
-        value_from<reach::Differences>(options->differences, reach::difference_names).value();
-    options->scheme.steps = value_from<reach::Steps>(options->steps, reach::step_names).value();
+        value_from<levelset::Differences>(options->differences, levelset::difference_names).value();
+    options->scheme.steps =
+        value_from<levelset::Steps>(options->steps, levelset::step_names).value();
     options->scheme.with_error = !options->without_error;
     exit_code = solve_case(*options);
   });

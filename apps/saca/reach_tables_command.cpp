@@ -24,7 +24,7 @@ struct TablesOptions {
 
 struct NeededByCar {
   Inputs inputs;
-  std::map<std::string, reach::DangerCase> tables;  // by their names
+  std::map<std::string, danger::DangerCase> tables;  // by their names
 };
 
 Result<std::vector<std::string>> all_shipped() {
@@ -53,7 +53,7 @@ Result<std::map<std::string, NeededByCar>> needed_by(const std::vector<std::stri
     if (!needed.has_value()) {
       return needed.error();
     }
-    for (const reach::DangerCase& table : needed.value()) {
+    for (const danger::DangerCase& table : needed.value()) {
       car.tables.try_emplace(table.name, table);
     }
   }

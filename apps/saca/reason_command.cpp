@@ -16,23 +16,23 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
-#include "saca/decide/check.h"
-#include "saca/decide/event.h"
-#include "saca/reason/explanation_json.h"
-#include "saca/reason/prompt.h"
-#include "saca/reason/reply.h"
-#include "saca/reason/truth.h"
-#include "saca/reason/truth_json.h"
+#include "saca/thinking/arbitration/check.h"
+#include "saca/thinking/arbitration/event.h"
+#include "saca/thinking/language_model/explanation_json.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/truth.h"
+#include "saca/thinking/language_model/truth_json.h"
 
 namespace saca::app {
 namespace {
 
-using decide::Preview;
+using arbitration::Preview;
+using language_model::Answer;
+using language_model::Progress;
+using language_model::Reply;
 using manoeuvre::PolicyId;
 using nlohmann::json;
-using reason::Answer;
-using reason::Progress;
-using reason::Reply;
 
 struct ReasonOptions {
   std::string scenario;
@@ -86,9 +86,9 @@ class Stream {
 struct ForecastReply {
   const Preview* preview = nullptr;
   Reply reply;
-  reason::Truth truth;
-  std::optional<decide::Check> check;              ///< of what was last chosen
-  std::optional<reason::Explanation> explanation;  ///< of that, where it can be driven
+  language_model::Truth truth;
+  std::optional<arbitration::Check> check;                 ///< of what was last chosen
+  std::optional<language_model::Explanation> explanation;  ///< of that, where it can be driven
 };
 
 json considered_json(const ForecastReply& one) {
@@ -132,7 +132,7 @@ void tell_considered(std::size_t number, const ForecastReply& one, bool with_tex
   const auto num_checked = static_cast<std::size_t>(one.truth.num_checked);
   app::print("Truth: {} of {} statements that can be checked.\n",
              num_checked - one.truth.wrong.size(), num_checked);
-  for (const reason::FalseStatement& each : one.truth.wrong) {
+  for (const language_model::FalseStatement& each : one.truth.wrong) {
     app::print("  false{}: \"{}\": {}\n", each.load_bearing ? ", and the choice rests on it" : "",
                each.text, each.why);
   }
@@ -143,8 +143,8 @@ void tell_considered(std::size_t number, const ForecastReply& one, bool with_tex
   const PolicyId chosen = likeliest_policy(one.reply.answers.back());
   if (one.explanation) {
     app::print("Reasons, {}:\n{}",
-               one.explanation->from == reason::Explanation::From::facts ? "by the figures"
-                                                                         : "as far as true",
+               one.explanation->from == language_model::Explanation::From::facts ? "by the figures"
+                                                                                 : "as far as true",
                one.explanation->text);
   }
   app::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
@@ -162,8 +162,9 @@ void tell_question(const std::vector<Preview>& previews) {
 }
 
 /// Asks, telling the text while it comes if that is wanted. Answers are dated from the question.
-Result<std::vector<Reply>> ask(reason::LanguageModel& model, const std::vector<Preview>& previews,
-                               const ReasonOptions& options, const Clock& clock) {
+Result<std::vector<Reply>> ask(language_model::LanguageModel& model,
+                               const std::vector<Preview>& previews, const ReasonOptions& options,
+                               const Clock& clock) {
   std::vector<std::string> scenes;
   scenes.reserve(previews.size());
   for (const Preview& preview : previews) {
@@ -204,7 +205,7 @@ int reason_about(const ReasonOptions& options) {
   if (!model.has_value()) {
     return refused(model.error());
   }
-  const manoeuvre::Atlas atlas = usual_atlas(inputs.value());
+  const atlas::Atlas atlas = usual_atlas(inputs.value());
   const auto danger = usual_danger(inputs.value(), false);
   if (!danger.has_value()) {
     return refused(danger.error());
@@ -236,12 +237,13 @@ int reason_about(const ReasonOptions& options) {
       const preview::Situation& situation = one.preview->situation;
       if (!one.reply.answers.empty()) {
         const PolicyId chosen = likeliest_policy(one.reply.answers.back());
-        one.check = decide::check(situation.facts[manoeuvre::index(chosen)].plan, situation, tools);
+        one.check =
+            arbitration::check(situation.facts[manoeuvre::index(chosen)].plan, situation, tools);
       }
-      one.truth = reason::truth_of(one.reply, one.preview->prompt, situation);
+      one.truth = language_model::truth_of(one.reply, one.preview->prompt, situation);
       Preview replied = *one.preview;
       replied.reply = one.reply;
-      one.explanation = decide::explanation(replied);
+      one.explanation = arbitration::explanation(replied);
       all.push_back(std::move(one));
     }
   }
@@ -250,7 +252,7 @@ int reason_about(const ReasonOptions& options) {
                      {"scenario", inputs.value().scenario.name},
                      {"model", model.value()->description()},
                      {"deadline_ms", options.deadline},
-                     {"system", reason::system_part(inputs.value().harm)},
+                     {"system", language_model::system_part(inputs.value().harm)},
                      {"forecasts", json::array()}};
     for (const ForecastReply& one : all) {
       document["forecasts"].push_back(considered_json(one));

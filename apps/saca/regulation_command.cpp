@@ -8,8 +8,8 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/regulation_page.h"
 #include "apps/saca/suite_running.h"
-#include "saca/core/file.h"
-#include "saca/core/units.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/units.h"
 
 namespace saca::app {
 namespace {

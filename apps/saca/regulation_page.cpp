@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "saca/core/units.h"
-#include "saca/eval/methods.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/eval/methods.h"
 
 namespace saca::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/saca/regulation_running.h"
-#include "saca/report/suite_page.h"
+#include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
 

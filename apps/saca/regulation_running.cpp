@@ -10,9 +10,9 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_running.h"
-#include "saca/core/suggestion.h"
-#include "saca/eval/suite.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/suggestion.h"
+#include "saca/lab/eval/suite.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {

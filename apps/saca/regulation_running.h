@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/saca/places.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/imitator.h"
-#include "saca/eval/regulation.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/imitator.h"
+#include "saca/lab/eval/regulation.h"
 
 namespace saca::app {
 

@@ -8,8 +8,8 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/manoeuvre/atlas_file.h"
+#include "saca/base/core/file.h"
+#include "saca/onboard/atlas/atlas_file.h"
 #include "saca/runtime/read_tape.h"
 #include "saca/runtime/replay.h"
 
@@ -25,16 +25,16 @@ struct ReplayOptions {
 };
 
 /// nullopt: it was recorded without.
-Result<std::optional<manoeuvre::Atlas>> open_atlas(const ReplayOptions& options,
-                                                   const runtime::TapeHeader& header,
-                                                   const Inputs& inputs) {
+Result<std::optional<atlas::Atlas>> open_atlas(const ReplayOptions& options,
+                                               const runtime::TapeHeader& header,
+                                               const Inputs& inputs) {
   if (!header.atlas) {
-    return std::optional<manoeuvre::Atlas>();
+    return std::optional<atlas::Atlas>();
   }
   if (options.atlas.empty()) {
     return std::optional(usual_atlas(inputs));
   }
-  auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
+  auto atlas = atlas::read_atlas(options.atlas, inputs.car);
   return atlas.has_value() ? Result(std::optional(std::move(atlas).value())) : atlas.error();
 }
 
@@ -116,14 +116,14 @@ int run(const ReplayOptions& options) {
                    .harm = &inputs.value().harm,
                    .cues = header.cues ? &inputs.value().cues : nullptr},
       .thresholds = header.thresholds,
-      .guard = header.guarded ? decide::Guard::never_worse_than_braking : decide::Guard::none,
+      .guard = header.guarded ? reflex::Guard::never_worse_than_braking : reflex::Guard::none,
       .forced = header.forced,
       .clock = &clock};
   runtime::TapeHeader here = runtime::tape_header(setup, inputs.value().intent);
   here.program = SACA_VERSION;
   here.atlas = header.atlas;  // it is opened, perhaps made, when all else is as it was
   auto problem = mismatch(header, here);
-  const auto atlas = problem ? Result<std::optional<manoeuvre::Atlas>>(*problem)
+  const auto atlas = problem ? Result<std::optional<atlas::Atlas>>(*problem)
                              : open_atlas(options, header, inputs.value());
   if (!problem && atlas.has_value() && atlas.value()) {
     setup.forecast.atlas = &*atlas.value();

@@ -5,8 +5,8 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
-#include "saca/report/html_report.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/report/html_report.h"
 
 namespace saca::app {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/journal.h"
-#include "saca/core/parallel.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/journal.h"
+#include "saca/base/core/parallel.h"
 
 namespace saca::app {
 

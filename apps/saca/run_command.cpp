@@ -23,15 +23,15 @@
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
-#include "saca/loop/encounter.h"
-#include "saca/loop/learnt_case.h"
-#include "saca/loop/provenance.h"
-#include "saca/loop/review.h"
-#include "saca/loop/trace.h"
-#include "saca/manoeuvre/atlas_file.h"
-#include "saca/memory/store.h"
-#include "saca/report/explanation.h"
-#include "saca/report/html_report.h"
+#include "saca/lab/encounter/encounter.h"
+#include "saca/lab/encounter/learnt_case.h"
+#include "saca/lab/encounter/provenance.h"
+#include "saca/lab/encounter/review.h"
+#include "saca/lab/encounter/trace.h"
+#include "saca/lab/report/explanation.h"
+#include "saca/lab/report/html_report.h"
+#include "saca/onboard/atlas/atlas_file.h"
+#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 namespace {
@@ -61,8 +61,8 @@ struct RunOptions {
   bool as_json = false;
 };
 
-preview::Thresholds thresholds_of(const RunOptions& options) {
-  preview::Thresholds thresholds;
+reflex::Thresholds thresholds_of(const RunOptions& options) {
+  reflex::Thresholds thresholds;
   if (options.trigger == "t1") {
     thresholds.waiting_cost.reset();
   }
@@ -70,23 +70,23 @@ preview::Thresholds thresholds_of(const RunOptions& options) {
 }
 
 /// nullopt: none is wanted.
-Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
-                                                   const ScenarioInputs& inputs) {
+Result<std::optional<atlas::Atlas>> open_atlas(const RunOptions& options,
+                                               const ScenarioInputs& inputs) {
   if (options.atlas == "off") {
-    return std::optional<manoeuvre::Atlas>();
+    return std::optional<atlas::Atlas>();
   }
   if (options.atlas.empty()) {
     return std::optional(usual_atlas(inputs));
   }
-  const auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
-  return atlas.has_value() ? Result<std::optional<manoeuvre::Atlas>>(std::optional(atlas.value()))
+  const auto atlas = atlas::read_atlas(options.atlas, inputs.car);
+  return atlas.has_value() ? Result<std::optional<atlas::Atlas>>(std::optional(atlas.value()))
                            : atlas.error();
 }
 
 /// nullopt: V_h is told by a few evasions.
-Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
-                                                      const ScenarioInputs& inputs) {
-  return options.danger == "off" ? Result(std::optional<reach::DangerModel>())
+Result<std::optional<danger::DangerModel>> open_danger(const RunOptions& options,
+                                                       const ScenarioInputs& inputs) {
+  return options.danger == "off" ? Result(std::optional<danger::DangerModel>())
                                  : usual_danger(inputs, options.danger == "tables");
 }
 
@@ -111,7 +111,7 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
                      (options.no_learning || on_a_server ? "" : "move the file away, or ") +
                      "run without --memory)"};
   };
-  auto car = loop::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);
+  auto car = encounter::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);
   auto opened = options.no_learning ? memory::Store::snapshot(file, std::move(car))
                                     : memory::Store::open(file, std::move(car));
   if (!opened.has_value()) {
@@ -140,17 +140,18 @@ std::optional<Error> write_outputs(const std::string& record, const fs::path& fo
 }
 
 /// Of a record that this command makes now.
-Result<loop::Provenance> provenance_of(const ScenarioInputs& inputs, const std::string& scenario) {
+Result<encounter::Provenance> provenance_of(const ScenarioInputs& inputs,
+                                            const std::string& scenario) {
   const auto digest = scenario_digest(inputs.places, scenario);
   if (!digest.has_value()) {
     return digest.error();
   }
-  return loop::Provenance{.program = "saca " SACA_VERSION,
-                          .commit = built_from(),
-                          .date = now_in_utc(),
-                          .command = invocation(),
-                          .file = scenario,
-                          .digest = digest.value()};
+  return encounter::Provenance{.program = "saca " SACA_VERSION,
+                               .commit = built_from(),
+                               .date = now_in_utc(),
+                               .command = invocation(),
+                               .file = scenario,
+                               .digest = digest.value()};
 }
 
 /// What came, what was weighed and why this was done.
@@ -167,10 +168,10 @@ std::string wrong_trace_name(const std::string& name) {
              : "want a file that ends in .jsonl or .csv, got `" + name + "`";
 }
 
-std::optional<Error> write_trace(const fs::path& file, const loop::Setup& setup,
-                                 const loop::Record& record) {
-  return write_output(file, file.extension() == ".csv" ? loop::trace_csv(setup, record)
-                                                       : loop::trace_jsonl(setup, record));
+std::optional<Error> write_trace(const fs::path& file, const encounter::Setup& setup,
+                                 const encounter::Record& record) {
+  return write_output(file, file.extension() == ".csv" ? encounter::trace_csv(setup, record)
+                                                       : encounter::trace_jsonl(setup, record));
 }
 
 std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& tape) {
@@ -240,50 +241,50 @@ int run(const RunOptions& options) {
   if (!forced.has_value()) {
     return refused(forced.error());
   }
-  const loop::Setup setup{.scenario = &inputs.value().scenario,
-                          .car = &inputs.value().car,
-                          .harm = &inputs.value().harm,
-                          .intent = &inputs.value().intent,
-                          .atlas = atlas.value() ? &*atlas.value() : nullptr,
-                          .danger = danger.value() ? &*danger.value() : nullptr,
-                          .cues = &inputs.value().cues,
-                          .thresholds = thresholds_of(options),
-                          .pace = pace,
-                          .costs = costs.value(),
-                          .model = model.value().get(),
-                          .memory = memory.value().get(),
-                          .learns = !options.no_learning,
-                          .forced = forced.value(),
-                          .seed = options.seed,
-                          .tapes = !options.tape.empty(),
-                          .clock = &clock};
+  const encounter::Setup setup{.scenario = &inputs.value().scenario,
+                               .car = &inputs.value().car,
+                               .harm = &inputs.value().harm,
+                               .intent = &inputs.value().intent,
+                               .atlas = atlas.value() ? &*atlas.value() : nullptr,
+                               .danger = danger.value() ? &*danger.value() : nullptr,
+                               .cues = &inputs.value().cues,
+                               .thresholds = thresholds_of(options),
+                               .pace = pace,
+                               .costs = costs.value(),
+                               .model = model.value().get(),
+                               .memory = memory.value().get(),
+                               .learns = !options.no_learning,
+                               .forced = forced.value(),
+                               .seed = options.seed,
+                               .tapes = !options.tape.empty(),
+                               .clock = &clock};
   std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
   const bool silent = options.as_json || settings().quiet;
   Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO), wants_colours(STDOUT_FILENO));
   story.headline(inputs.value().scenario, setup);
-  auto played = loop::run(setup, story);
+  auto played = encounter::run(setup, story);
   if (!played.has_value()) {
     return refused(played.error());
   }
-  loop::Record record = std::move(played).value();
-  std::string text = loop::record_json(setup, record, &provenance.value());
+  encounter::Record record = std::move(played).value();
+  std::string text = encounter::record_json(setup, record, &provenance.value());
   story.ending(inputs.value().scenario, record, in_short(text));
   // What was played is written down even if nobody wants to wait for the review.
   watch_for_interrupt();
   const InterruptStop interrupt;
   const auto review =
-      options.review ? loop::review(
+      options.review ? encounter::review(
                            setup, record, [&](std::string_view said) { story.on_review(said); },
                            interrupt.token())
-                     : Result<std::optional<reason::Review>>(std::nullopt);
+                     : Result<std::optional<language_model::Review>>(std::nullopt);
   if (!review.has_value()) {
     complain("no review: " + review.error().message);
   } else if (review.value()) {
     record.review = review.value();
     story.on_truth(record.review->truth);
-    text = loop::record_json(setup, record, &provenance.value());
+    text = encounter::record_json(setup, record, &provenance.value());
     if (record.stored) {
-      record.not_stored = loop::keep_lesson(*memory.value(), *record.stored, *record.review);
+      record.not_stored = encounter::keep_lesson(*memory.value(), *record.stored, *record.review);
     }
   }
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;

@@ -5,7 +5,7 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/sim/scenario.h"
+#include "saca/lab/scenario/scenario.h"
 
 namespace saca::app {
 namespace {
@@ -21,7 +21,7 @@ int list_scenarios(bool as_json) {
   nlohmann::json list = nlohmann::json::array();
   int code = success;
   for (const fs::path& file : shipped_scenarios(places.value())) {
-    const auto scenario = sim::load_scenario(file);
+    const auto scenario = scenario::load_scenario(file);
     if (!scenario.has_value()) {
       complain(scenario.error().message);
       code = bad_input;

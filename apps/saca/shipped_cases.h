@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "apps/saca/places.h"
-#include "saca/memory/case.h"
+#include "saca/thinking/memory/case.h"
 
 namespace saca::app {
 

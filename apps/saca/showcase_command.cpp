@@ -14,8 +14,8 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/eval/showcase.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/eval/showcase.h"
 
 namespace saca::app {
 namespace {
@@ -39,7 +39,7 @@ int wanted(PolicyId policy) {
 }
 
 struct ShowcasePage {
-  sim::Scenario scenario;
+  scenario::Scenario scenario;
   eval::Oracle oracle;
 
   /// How often the right policy meets somebody all the same.
@@ -50,7 +50,7 @@ struct ShowcasePage {
 
 /// A sample as a scenario of its own.
 void give_name(ShowcasePage& one, PolicyId policy, std::size_t index) {
-  sim::Scenario& scenario = one.scenario;
+  scenario::Scenario& scenario = one.scenario;
   scenario.name = fmt::format("showcase_{}", manoeuvre::index(policy));
   if (wanted(policy) > 1) {
     scenario.name += fmt::format("_{}", static_cast<char>('a' + index));
@@ -81,7 +81,7 @@ Result<std::optional<std::vector<ShowcasePage>>> shown(const DrawnSuite& suite,
     if (!sample.has_value()) {
       return sample.error();
     }
-    const sim::Scenario& scenario = sample.value().scenario;
+    const scenario::Scenario& scenario = sample.value().scenario;
     ShowcasePage one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
                                             {.time = *all[i].time,
                                              .draws = options.rule.draws,
@@ -107,7 +107,7 @@ Result<std::optional<std::vector<ShowcasePage>>> shown(const DrawnSuite& suite,
 
 std::optional<Error> write(const ShowcasePage& one, const std::string& output) {
   const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
-  if (auto problem = write_output(file, sim::write_scenario(one.scenario))) {
+  if (auto problem = write_output(file, scenario::write_scenario(one.scenario))) {
     return problem;
   }
   return write_output(fs::path(output) / (one.scenario.name + ".svg"),

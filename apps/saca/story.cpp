@@ -11,9 +11,9 @@
 #include <cstring>
 #include <iterator>
 
-#include "saca/core/printable.h"
-#include "saca/outcome/describe.h"
-#include "saca/outcome/ordering.h"
+#include "saca/base/core/printable.h"
+#include "saca/onboard/collision/describe.h"
+#include "saca/onboard/collision/ordering.h"
 
 namespace saca::app {
 namespace {
@@ -21,8 +21,8 @@ namespace {
 constexpr const char* plain = "\033[0m";
 constexpr std::size_t longest_event = 2'000;  // characters; a terminal need not show more
 
-const char* colour_of(decide::EventKind kind) {
-  using decide::EventKind;
+const char* colour_of(arbitration::EventKind kind) {
+  using arbitration::EventKind;
   switch (kind) {
     case EventKind::trigger:
     case EventKind::match:
@@ -40,18 +40,18 @@ const char* colour_of(decide::EventKind kind) {
 }
 
 /// What was begun at the trigger, and after it.
-std::string done(const loop::Record& record) {
+std::string done(const encounter::Record& record) {
   std::string text = manoeuvre::plan_text(record.decision->plan);
-  for (const loop::TimedSwitch& each : record.switches) {
+  for (const encounter::TimedSwitch& each : record.switches) {
     text += fmt::format(", from {:.2f} s on {}", each.time, manoeuvre::plan_text(each.change.plan));
   }
   return text;
 }
 
 /// What would have been best beside what came of what was done.
-std::string beside(const preview::PolicyFacts& best, const loop::Record& record) {
+std::string beside(const preview::PolicyFacts& best, const encounter::Record& record) {
   const double more = record.result.harm - best.outcome().harm;
-  if (std::abs(more) >= outcome::harm_tie) {
+  if (std::abs(more) >= collision::harm_tie) {
     return more > 0.0 ? fmt::format("It harms {:.4f} less.", more)
                       : fmt::format("What was done harmed {:.4f} less.", -more);
   }
@@ -94,7 +94,7 @@ void Story::write_waiting(int seconds) {
   }
 }
 
-void Story::on_event(const decide::Event& event) {
+void Story::on_event(const arbitration::Event& event) {
   say(fmt::format("{}{:7.2f} s  {:8}  {}{}\n", colour_ ? colour_of(event.kind) : "", event.time,
                   name(event.plane), one_line(event.text, longest_event), colour_ ? plain : ""));
 }
@@ -103,7 +103,7 @@ void Story::on_reasoning(std::int32_t, std::string_view) {
   // Three replies grow together; the report has them in full.
 }
 
-void Story::headline(const sim::Scenario& scenario, const loop::Setup& setup) {
+void Story::headline(const scenario::Scenario& scenario, const encounter::Setup& setup) {
   waiting_ += fmt::format("{}\n{}\nPace {}, grip {:.2f}, language model: {}, forecasts: {}.\n",
                           printable(scenario.title), printable(scenario.source), name(setup.pace),
                           scenario.grip,
@@ -119,7 +119,7 @@ void Story::headline(const sim::Scenario& scenario, const loop::Setup& setup) {
   write_waiting(0);
 }
 
-void Story::ending(const sim::Scenario& scenario, const loop::Record& record,
+void Story::ending(const scenario::Scenario& scenario, const encounter::Record& record,
                    const std::vector<std::string>& in_short) {
   std::string text = "\n";
   const auto line = std::back_inserter(text);
@@ -131,21 +131,21 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record,
   }
   if (record.driver) {
     fmt::format_to(line, "The drive as recorded: {}.\n",
-                   outcome::describe(*record.driver, record.met_by_driver));
+                   collision::describe(*record.driver, record.met_by_driver));
   }
   if (!record.decision) {
     fmt::format_to(line, "SACA: never triggered; {}.\n",
-                   outcome::describe(record.result, record.met));
+                   collision::describe(record.result, record.met));
     say(text);
     return;
   }
   fmt::format_to(line, "SACA: {}, {}. Collision Loss {:.2f}, harm {:.4f}.\n", done(record),
-                 outcome::describe(record.result, record.met), record.result.collision_loss,
+                 collision::describe(record.result, record.met), record.result.collision_loss,
                  record.result.harm);
   const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
   fmt::format_to(line, "Best in hindsight, kept to the end: {}, {}. {}\n",
                  manoeuvre::plan_text(best.plan),
-                 outcome::describe(best.outcome(), *record.at_trigger), beside(best, record));
+                 collision::describe(best.outcome(), *record.at_trigger), beside(best, record));
   say(text);
 }
 
@@ -154,14 +154,14 @@ void Story::on_review(std::string_view text) {
   reviewing_ = true;
 }
 
-void Story::on_truth(const reason::Truth& truth) {
+void Story::on_truth(const language_model::Truth& truth) {
   if (truth.num_checked == 0) {
     return;
   }
   const auto checked = static_cast<std::size_t>(truth.num_checked);
   std::string text = fmt::format("\n{} of {} statements that can be checked are true.\n",
                                  checked - truth.wrong.size(), checked);
-  for (const reason::FalseStatement& each : truth.wrong) {
+  for (const language_model::FalseStatement& each : truth.wrong) {
     text += fmt::format("  false: \"{}\": {}\n", one_line(each.text, longest_event),
                         one_line(each.why, longest_event));
   }

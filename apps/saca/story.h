@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "saca/core/result.h"
-#include "saca/loop/encounter.h"
+#include "saca/base/core/result.h"
+#include "saca/lab/encounter/encounter.h"
 
 namespace saca::app {
 
@@ -14,7 +14,7 @@ namespace saca::app {
 /// Waits for whoever reads it, as for a full pipe or a terminal that is held, but no longer than
 /// `patience`: then, or where it cannot be written, the rest is left out, and `problem` says why.
 /// SIGPIPE is to be caught.
-class Story final : public loop::Listener {
+class Story final : public encounter::Listener {
  public:
   static constexpr int patience = 10;  ///< [s]
 
@@ -22,18 +22,18 @@ class Story final : public loop::Listener {
   /// @param colour  whether it understands terminal colours
   Story(std::optional<int> file, bool colour) : file_(file), colour_(colour) {}
 
-  void on_event(const decide::Event& event) override;
+  void on_event(const arbitration::Event& event) override;
   void on_reasoning(std::int32_t preview, std::string_view text) override;
 
   /// Does not wait: what cannot be written now stands before the first event.
-  void headline(const sim::Scenario& scenario, const loop::Setup& setup);
+  void headline(const scenario::Scenario& scenario, const encounter::Setup& setup);
   /// @param in_short  what came, what was weighed and why this was done, in sentences
-  void ending(const sim::Scenario& scenario, const loop::Record& record,
+  void ending(const scenario::Scenario& scenario, const encounter::Record& record,
               const std::vector<std::string>& in_short);
   /// The model looking back, piece by piece.
   void on_review(std::string_view text);
   /// What of that is false.
-  void on_truth(const reason::Truth& truth);
+  void on_truth(const language_model::Truth& truth);
   /// Where the report lies.
   void on_report(const std::string& file);
 

@@ -12,7 +12,7 @@
 #include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/traffic_suite.h"
-#include "saca/core/file.h"
+#include "saca/base/core/file.h"
 
 namespace saca::app {
 namespace {

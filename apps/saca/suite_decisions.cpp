@@ -9,8 +9,8 @@
 namespace saca::app {
 namespace {
 
+using encounter::ThinkingFigures;
 using eval::MethodFigures;
-using loop::ThinkingFigures;
 
 int total_of(const std::map<std::string, int>& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0,

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "saca/eval/suite_figures.h"
-#include "saca/report/suite_page.h"
+#include "saca/lab/eval/suite_figures.h"
+#include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
 

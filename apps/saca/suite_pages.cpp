@@ -10,8 +10,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/suite_decisions.h"
-#include "saca/core/file.h"
-#include "saca/eval/suite_file.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/eval/suite_file.h"
 
 namespace saca::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/saca/suite_running.h"
-#include "saca/eval/suite_figures.h"
-#include "saca/report/suite_page.h"
+#include "saca/lab/eval/suite_figures.h"
+#include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
 

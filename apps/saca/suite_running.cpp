@@ -14,11 +14,11 @@
 #include "apps/saca/surveying.h"
 #include "apps/saca/thresholds_options.h"
 #include "apps/saca/version.h"
-#include "saca/core/csv.h"
-#include "saca/core/file.h"
-#include "saca/core/journal.h"
-#include "saca/core/suggestion.h"
-#include "saca/danger/learned.h"
+#include "saca/base/core/csv.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/journal.h"
+#include "saca/base/core/suggestion.h"
+#include "saca/lab/learned_danger/learned.h"
 
 namespace saca::app {
 namespace {
@@ -50,29 +50,29 @@ struct Bench {
   SuiteEncounters source;
   std::unique_ptr<const PlanesOfCar> planes;
   std::unique_ptr<SuiteThinking> thinking;
-  std::shared_ptr<const danger::Network> danger;   ///< nullptr: no method needs it
-  std::shared_ptr<const eval::Imitator> imitator;  ///< likewise
+  std::shared_ptr<const learned_danger::Network> danger;  ///< nullptr: no method needs it
+  std::shared_ptr<const eval::Imitator> imitator;         ///< likewise
   eval::SuiteOptions how;
 };
 
 /// The weights that are named.
 /// @return  an error where they are of another car
-Result<std::shared_ptr<const danger::Network>> danger_of(const SuiteCommandOptions& options,
-                                                         const Inputs& inputs) {
+Result<std::shared_ptr<const learned_danger::Network>> danger_of(const SuiteCommandOptions& options,
+                                                                 const Inputs& inputs) {
   if (options.danger.empty()) {
-    return std::shared_ptr<const danger::Network>();
+    return std::shared_ptr<const learned_danger::Network>();
   }
   auto weights = read_danger_weights(options.danger);
   if (!weights.has_value()) {
     return weights.error();
   }
-  const std::string ours = danger::vehicle_word(inputs.car);
-  if (danger::vehicle_word(weights.value().inputs.car) != ours) {
+  const std::string ours = learned_danger::vehicle_word(inputs.car);
+  if (learned_danger::vehicle_word(weights.value().inputs.car) != ours) {
     return Error{Error::Code::malformed,
                  fmt::format("{}: want weights of {}, got those of {}", options.danger,
                              inputs.car_name, weights.value().car_name)};
   }
-  return std::make_shared<const danger::Network>(std::move(weights).value().network);
+  return std::make_shared<const learned_danger::Network>(std::move(weights).value().network);
 }
 
 Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
@@ -127,7 +127,7 @@ SuiteRow row_of(Bench& bench, std::uint64_t number) {
 }
 
 std::optional<std::string> untuned_text(const Bench& bench) {
-  const reason::LanguageModel* const model = bench.thinking->untuned();
+  const language_model::LanguageModel* const model = bench.thinking->untuned();
   return model == nullptr ? std::nullopt : std::optional(model->description());
 }
 
@@ -344,7 +344,7 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
       fs::path("runs") / fmt::format("{}-{}-{}.toml", fs::path(options.name).filename().string(),
                                      options.split, number);
   if (auto problem = write_output(
-          file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
+          file, scenario::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
     return *problem;
   }
   const ThinkingOptions& thinking = options.thinking;

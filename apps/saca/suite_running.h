@@ -10,11 +10,11 @@
 
 #include "apps/saca/inputs.h"
 #include "apps/saca/thinking_options.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/imitator.h"
-#include "saca/eval/suite.h"
-#include "saca/manoeuvre/atlas.h"
-#include "saca/preview/threat.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/imitator.h"
+#include "saca/lab/eval/suite.h"
+#include "saca/onboard/atlas/atlas.h"
+#include "saca/onboard/reflex/threat.h"
 
 namespace saca::app {
 
@@ -29,7 +29,7 @@ struct SuiteCommandOptions {
   std::string test_log;
   std::string car = "compact_rwd_ev";
   ThinkingOptions thinking;
-  preview::Thresholds thresholds;
+  reflex::Thresholds thresholds;
   std::string danger;  ///< weights of V_h and Q_h; empty: no method needs them
   std::uint64_t seed = 1;
   bool exact = false;

@@ -8,11 +8,11 @@
 
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/eval/paper_tables.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/sim/hundred_car_release.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/lab/eval/paper_tables.h"
+#include "saca/lab/importers/hundred_car_release.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {
@@ -46,16 +46,16 @@ Result<SuiteEncounters> open_hundred_car(const SuiteCommandOptions& options, Inp
   }
   const std::string& folder = options.data.front();
   watch_for_interrupt();
-  const auto outcomes =
-      sim::import_hundred_cars(folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
+  const auto outcomes = importers::import_hundred_cars(
+      folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
   if (!outcomes.has_value()) {
     return outcomes.error();
   }
   std::vector<SuiteEncounter> all;
   Fnv hash;
-  for (const sim::HundredCarOutcome& outcome : outcomes.value()) {
+  for (const importers::HundredCarOutcome& outcome : outcomes.value()) {
     if (const auto* const rebuilt = outcome.rebuilt()) {
-      hash.add(sim::write_scenario(rebuilt->scenario));
+      hash.add(scenario::write_scenario(rebuilt->scenario));
       all.push_back({.number = all.size(),
                      .family = outcome.severity,
                      .scenario = rebuilt->scenario,
@@ -67,7 +67,7 @@ Result<SuiteEncounters> open_hundred_car(const SuiteCommandOptions& options, Inp
     return Error{Error::Code::out_of_range, folder + ": want events that can be rebuilt, got none"};
   }
   std::string refused;
-  for (const auto& [reason, times] : sim::refusals(outcomes.value())) {
+  for (const auto& [reason, times] : importers::refusals(outcomes.value())) {
     refused += fmt::format("{}{} ({})", refused.empty() ? "" : ", ", times, meaning(reason));
   }
   const std::size_t rebuilt = all.size();
@@ -99,7 +99,7 @@ Result<SuiteEncounters> open_folder(const SuiteCommandOptions& options, Inputs i
     }
     hash.add(text.value());
     auto scenario =
-        sim::read_scenario(text.value(), file.string(), manoeuvre::footprint(inputs.car));
+        scenario::read_scenario(text.value(), file.string(), manoeuvre::footprint(inputs.car));
     if (!scenario.has_value()) {
       return scenario.error();
     }
@@ -127,8 +127,8 @@ Result<SuiteEncounters> open_paper_table(const SuiteCommandOptions& options, Inp
   for (SuiteEncounter& one : all) {
     one.scenario.car = inputs.car_name;
     one.twin->car = inputs.car_name;
-    hash.add(sim::write_scenario(one.scenario));
-    hash.add(sim::write_scenario(*one.twin));
+    hash.add(scenario::write_scenario(one.scenario));
+    hash.add(scenario::write_scenario(*one.twin));
     if (options.no_twins) {
       one.twin.reset();
     }

@@ -62,8 +62,8 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
     thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(stores));
   }
   const auto open_shared = [&](const std::string& choice, const char* option,
-                               std::unique_ptr<reason::LanguageModel>& model,
-                               std::unique_ptr<reason::SharedModel>& shared) {
+                               std::unique_ptr<language_model::LanguageModel>& model,
+                               std::unique_ptr<language_model::SharedModel>& shared) {
     auto opened = open_needed_model(places, choice, runtime::Pace::lockstep, clock, option);
     if (!opened.has_value()) {
       return std::optional(opened.error());
@@ -73,7 +73,8 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
       thinking->interrupt_ = std::make_unique<InterruptStop>();
     }
     model = std::move(opened).value();
-    shared = std::make_unique<reason::SharedModel>(*model, clock, thinking->interrupt_->token());
+    shared =
+        std::make_unique<language_model::SharedModel>(*model, clock, thinking->interrupt_->token());
     return std::optional<Error>();
   };
   if (options.model != "off") {
@@ -99,7 +100,7 @@ SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
 }
 
 std::optional<Error> SuiteThinking::failure() const {
-  const auto failure_of = [](const std::unique_ptr<reason::SharedModel>& model,
+  const auto failure_of = [](const std::unique_ptr<language_model::SharedModel>& model,
                              const char* option) -> std::optional<Error> {
     const auto failure = model ? model->failure() : std::nullopt;
     return failure ? std::optional(

@@ -7,11 +7,11 @@
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/thinking_options.h"
-#include "saca/core/lending_pool.h"
-#include "saca/memory/experience.h"
-#include "saca/memory/store.h"
-#include "saca/reason/shared_model.h"
+#include "saca/base/core/lending_pool.h"
 #include "saca/runtime/planes.h"
+#include "saca/thinking/language_model/shared_model.h"
+#include "saca/thinking/memory/experience.h"
+#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 
@@ -23,7 +23,7 @@ class SuiteThinking {
  public:
   /// Signals are watched for from here on: an interrupt withdraws questions to the model.
   /// @param clock    outlives this
-  /// @param car      that asks memory (loop::made_with)
+  /// @param car      that asks memory (encounter::made_with)
   /// @param threads  that think at once at most, >= 1
   /// @return         an error where memory or model is not there: a row without it would be another
   [[nodiscard]] static Result<std::unique_ptr<SuiteThinking>> open(
@@ -51,7 +51,7 @@ class SuiteThinking {
   [[nodiscard]] std::optional<std::string> model_text() const;
 
   /// The model without fine-tuning, to be asked by any thread; nullptr: none.
-  [[nodiscard]] reason::LanguageModel* untuned() const { return untuned_.get(); }
+  [[nodiscard]] language_model::LanguageModel* untuned() const { return untuned_.get(); }
 
  private:
   SuiteThinking() = default;
@@ -60,10 +60,10 @@ class SuiteThinking {
   std::unique_ptr<const memory::Experience> experience_;
   std::optional<std::string> memory_text_;
   std::unique_ptr<InterruptStop> interrupt_;
-  std::unique_ptr<reason::LanguageModel> model_;
-  std::unique_ptr<reason::SharedModel> shared_;
-  std::unique_ptr<reason::LanguageModel> untuned_model_;
-  std::unique_ptr<reason::SharedModel> untuned_;
+  std::unique_ptr<language_model::LanguageModel> model_;
+  std::unique_ptr<language_model::SharedModel> shared_;
+  std::unique_ptr<language_model::LanguageModel> untuned_model_;
+  std::unique_ptr<language_model::SharedModel> untuned_;
 };
 
 }  // namespace saca::app

@@ -9,9 +9,9 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
 
@@ -60,13 +60,13 @@ Result<DrawnSuite> open_suite(const SurveyOptions& options, const std::string& c
   if (auto problem = add_inputs(places, options.car, hash)) {
     return *problem;
   }
-  std::optional<sim::TestLog> log;
+  std::optional<families::TestLog> log;
   if (!options.test_log.empty()) {
-    log = sim::TestLog{options.test_log, command_line(options, command)};
+    log = families::TestLog{options.test_log, command_line(options, command)};
   }
   auto source = eval::SuiteSource::open({.scenarios = places.root / "scenarios",
                                          .suite = options.suite,
-                                         .split = *sim::split_from(options.split),
+                                         .split = *families::split_from(options.split),
                                          .test_log = std::move(log),
                                          .car = inputs.value().car_name,
                                          .footprint = manoeuvre::footprint(inputs.value().car),

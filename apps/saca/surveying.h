@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/core/fnv.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/survey.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/survey.h"
 
 namespace saca::app {
 

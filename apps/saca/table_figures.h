@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "apps/saca/suite_running.h"
-#include "saca/eval/paper_tables.h"
-#include "saca/eval/reply_timing.h"
-#include "saca/eval/suite_figures.h"
-#include "saca/report/suite_page.h"
+#include "saca/lab/eval/paper_tables.h"
+#include "saca/lab/eval/reply_timing.h"
+#include "saca/lab/eval/suite_figures.h"
+#include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
 

@@ -21,7 +21,7 @@
 #include "apps/saca/suite_running.h"
 #include "apps/saca/table_figures.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
+#include "saca/base/core/file.h"
 
 namespace saca::app {
 namespace {
@@ -153,7 +153,7 @@ Result<std::vector<TimedModel>> time_replies(const TablesCommand& options) {
     return planes.error();
   }
   const PlanesOfCar& of_car = *planes.value();
-  const preview::Thresholds& thresholds = of_car.setup.thresholds;
+  const reflex::Thresholds& thresholds = of_car.setup.thresholds;
   constexpr double patience = 60.0;  // [s]
   const InterruptStop interrupt;
   std::vector<TimedModel> timed;

@@ -4,8 +4,8 @@
 
 namespace saca::app {
 
-void add_thresholds_options(CLI::App& command, preview::Thresholds& thresholds) {
-  constexpr preview::Thresholds shipped;
+void add_thresholds_options(CLI::App& command, reflex::Thresholds& thresholds) {
+  constexpr reflex::Thresholds shipped;
   command
       .add_option("--t1-s", thresholds.trigger,
                   "T1: everybody who acts at the trigger acts when a conflict is so near [s]")
@@ -20,8 +20,8 @@ void add_thresholds_options(CLI::App& command, preview::Thresholds& thresholds) 
       ->check(CLI::Range(0.0, 1.0));
 }
 
-std::string thresholds_arguments(const preview::Thresholds& thresholds) {
-  constexpr preview::Thresholds shipped;
+std::string thresholds_arguments(const reflex::Thresholds& thresholds) {
+  constexpr reflex::Thresholds shipped;
   std::string text;
   if (thresholds.trigger != shipped.trigger) {
     text += fmt::format(" --t1-s {}", thresholds.trigger);
@@ -32,7 +32,7 @@ std::string thresholds_arguments(const preview::Thresholds& thresholds) {
   return text;
 }
 
-std::string thresholds_text(const preview::Thresholds& thresholds) {
+std::string thresholds_text(const reflex::Thresholds& thresholds) {
   return fmt::format("T1 {} s, T2 {} s{}", thresholds.trigger, thresholds.preview,
                      thresholds_arguments(thresholds));
 }

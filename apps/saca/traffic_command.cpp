@@ -12,19 +12,19 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/traffic/pack.h"
-#include "saca/traffic/recorded_set.h"
-#include "saca/traffic/set_file.h"
+#include "saca/base/core/clock.h"
+#include "saca/lab/recordings/pack.h"
+#include "saca/lab/recordings/recorded_set.h"
+#include "saca/lab/recordings/set_file.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using traffic::PackProgress;
-using traffic::PackResult;
-using traffic::RecordedSet;
-using traffic::SetCounts;
+using recordings::PackProgress;
+using recordings::PackResult;
+using recordings::RecordedSet;
+using recordings::SetCounts;
 
 nlohmann::json counts_json(const SetCounts& counts) {
   return {{"recordings", counts.recordings},      {"groups", counts.groups},
@@ -36,11 +36,11 @@ nlohmann::json counts_json(const SetCounts& counts) {
 
 nlohmann::json set_json(const RecordedSet& set) {
   nlohmann::json sites = nlohmann::json::object();
-  for (const auto& [site, counts] : traffic::counts_by_site(set)) {
+  for (const auto& [site, counts] : recordings::counts_by_site(set)) {
     sites[site] = counts_json(counts);
   }
   return {{"schema", "saca.traffic_info/1"},
-          {"all", counts_json(traffic::counts_of(set))},
+          {"all", counts_json(recordings::counts_of(set))},
           {"sites", sites},
           {"skipped", set.skipped}};
 }
@@ -55,10 +55,10 @@ void tell_counts(const std::string& what, const SetCounts& counts) {
 }
 
 void tell_set(const RecordedSet& set) {
-  for (const auto& [site, counts] : traffic::counts_by_site(set)) {
+  for (const auto& [site, counts] : recordings::counts_by_site(set)) {
     tell_counts(site, counts);
   }
-  tell_counts("all", traffic::counts_of(set));
+  tell_counts("all", recordings::counts_of(set));
   for (const auto& [reason, count] : set.skipped) {
     app::print("  left out: {} x {}\n", count, reason);
   }
@@ -80,7 +80,7 @@ struct PackSource {
 
 int pack(const PackSource& source, const TrafficPackOptions& options) {
   const auto files =
-      traffic::files_in({options.places.begin(), options.places.end()}, source.ending);
+      recordings::files_in({options.places.begin(), options.places.end()}, source.ending);
   if (!files.has_value()) {
     return refused(files.error());
   }
@@ -107,7 +107,7 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
   if (const auto problem = make_folder_of(options.output)) {
     return refused(*problem);
   }
-  if (const auto problem = traffic::write_set(options.output, packed.value().set)) {
+  if (const auto problem = recordings::write_set(options.output, packed.value().set)) {
     return refused(*problem);
   }
   if (options.as_json) {
@@ -129,7 +129,7 @@ void add_pack_source(CLI::App& command, const PackSource& source, int& exit_code
 }
 
 int show_info(const std::string& file, bool as_json) {
-  const Result<RecordedSet> set = traffic::read_set(file);
+  const Result<RecordedSet> set = recordings::read_set(file);
   if (!set.has_value()) {
     return refused(set.error());
   }
@@ -152,15 +152,15 @@ void add_traffic(CLI::App& line, int& exit_code) {
   add_pack_source(
       *packing,
       {"commonroad", "CommonRoad files (XML 2020a) with recorded obstacles and lanelets", ".xml",
-       traffic::pack_commonroad},
+       recordings::pack_commonroad},
       exit_code);
   add_pack_source(*packing,
                   {"100car", "The 100-Car study's release: its events' cars", ".txt",
-                   traffic::pack_hundred_car},
+                   recordings::pack_hundred_car},
                   exit_code);
   add_pack_source(*packing,
                   {"ngsim", "NGSIM's own trajectories: CSV, the older text files, I-80's pairs",
-                   ".csv", traffic::pack_ngsim},
+                   ".csv", recordings::pack_ngsim},
                   exit_code);
   CLI::App* const info = command->add_subcommand("info", "What a set holds");
   const auto file = std::make_shared<std::string>();

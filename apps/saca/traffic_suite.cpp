@@ -12,8 +12,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/thresholds_options.h"
-#include "saca/core/file.h"
-#include "saca/report/suite_page.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
 namespace {

@@ -12,15 +12,15 @@
 
 #include "apps/saca/progress.h"
 #include "apps/saca/thresholds_options.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/core/journal.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/traffic_drives.h"
-#include "saca/sim/hundred_car_release.h"
-#include "saca/sim/traffic_recording.h"
-#include "saca/traffic/hundred_car_file.h"
-#include "saca/traffic/pack.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/journal.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/traffic_drives.h"
+#include "saca/lab/importers/hundred_car_release.h"
+#include "saca/lab/importers/traffic_recording.h"
+#include "saca/lab/recordings/hundred_car_file.h"
+#include "saca/lab/recordings/pack.h"
 
 namespace saca::app {
 namespace {
@@ -59,13 +59,13 @@ std::optional<Error> hash_files(const std::vector<fs::path>& files, Fnv& hash) {
 // --- CommonRoad
 
 Result<RecordedEgo> recorded_ego(const eval::TrafficDrive& drive) {
-  auto made = sim::import_commonroad(drive.file, {.ego = drive.obstacle, .from = drive.from});
+  auto made = importers::import_commonroad(drive.file, {.ego = drive.obstacle, .from = drive.from});
   if (!made.has_value()) {
     return made.error();
   }
-  sim::TrafficImport import = std::move(made).value();
+  importers::TrafficImport import = std::move(made).value();
   constexpr eval::Settling settling;
-  const double recorded = std::get<sim::Recording>(import.scenario.ego).back().time;
+  const double recorded = std::get<scenario::Recording>(import.scenario.ego).back().time;
   const double until = std::min(drive.seconds, recorded - settling.before_end);
   if (until <= settling.after_start) {
     return Error{Error::Code::out_of_range,
@@ -114,20 +114,20 @@ constexpr double times_before[] = {30.0, 20.0, 12.0};
 constexpr double settled_rows = 1.0;
 constexpr eval::Settling radar_settling{.after_start = settled_rows, .before_end = 0.5};
 
-double normal_seconds(const sim::HundredCarImport& made) {
-  return traffic::hundred_car_step *
+double normal_seconds(const importers::HundredCarImport& made) {
+  return recordings::hundred_car_step *
          static_cast<double>(made.report.conflict_row - made.report.first_row);
 }
 
 /// The longest that was made of each event.
 std::optional<Error> find_hundred_cars(const fs::path& folder, Findings& found) {
   struct Best {
-    const sim::HundredCarOutcome* outcome = nullptr;
+    const importers::HundredCarOutcome* outcome = nullptr;
     double before = 0.0;
   };
-  std::vector<std::vector<sim::HundredCarOutcome>> all;
+  std::vector<std::vector<importers::HundredCarOutcome>> all;
   for (const double before : times_before) {
-    auto outcomes = sim::import_hundred_cars(
+    auto outcomes = importers::import_hundred_cars(
         folder, {.before = before}, [](std::size_t, std::size_t) { return !interrupted(); });
     if (!outcomes.has_value()) {
       return outcomes.error();
@@ -136,7 +136,7 @@ std::optional<Error> find_hundred_cars(const fs::path& folder, Findings& found) 
   }
   std::map<std::int64_t, Best> best;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    for (const sim::HundredCarOutcome& outcome : all[k]) {
+    for (const importers::HundredCarOutcome& outcome : all[k]) {
       Best& one = best[outcome.event];
       const auto* made = outcome.rebuilt();
       const auto* before = one.outcome == nullptr ? nullptr : one.outcome->rebuilt();
@@ -147,13 +147,13 @@ std::optional<Error> find_hundred_cars(const fs::path& folder, Findings& found) 
       }
     }
   }
-  std::map<sim::HundredCarReason, int> refused;
+  std::map<importers::HundredCarReason, int> refused;
   for (const auto& [event, one] : best) {
     if (const auto* refusal = one.outcome->refusal()) {
       ++refused[refusal->reason];
       continue;
     }
-    const sim::HundredCarImport made = *one.outcome->rebuilt();
+    const importers::HundredCarImport made = *one.outcome->rebuilt();
     if (normal_seconds(made) <= settled_rows) {
       continue;  // it begins with the conflict
     }
@@ -184,19 +184,19 @@ std::optional<Error> find_in(const std::string& folder, Findings& found) {
   if (!fs::is_directory(folder)) {
     return Error{Error::Code::unreadable, folder + ": want a folder, got none"};
   }
-  const auto maps = traffic::files_in({folder}, ".xml");
-  const auto texts = traffic::files_in({folder}, ".txt");
+  const auto maps = recordings::files_in({folder}, ".xml");
+  const auto texts = recordings::files_in({folder}, ".txt");
   if (!maps.has_value() || !texts.has_value()) {
     return maps.has_value() ? texts.error() : maps.error();
   }
   const bool study = std::any_of(texts.value().begin(), texts.value().end(), [](const fs::path& p) {
-    return p.filename() == traffic::hundred_car_table;
+    return p.filename() == recordings::hundred_car_table;
   });
   if (maps.value().empty() && !study) {
     return Error{Error::Code::malformed,
                  fmt::format("{}: want CommonRoad files (*.xml) or the 100-Car study's release "
                              "(with {}), got neither",
-                             folder, traffic::hundred_car_table)};
+                             folder, recordings::hundred_car_table)};
   }
   if (!maps.value().empty()) {
     if (auto problem = hash_files(maps.value(), found.hash)) {
@@ -232,7 +232,7 @@ std::vector<DriveToWatch> drawn_drives(std::vector<DriveToWatch> all, const Traf
 
 /// A row, whatever happens.
 ShadowRow watched_row(const DriveToWatch& drive, const PlanesOfCar& planes,
-                      const preview::Thresholds& thresholds) {
+                      const reflex::Thresholds& thresholds) {
   ShadowRow row{.source = drive.source, .drive = drive.name, .left_out = {}, .watched = {}};
   try {
     const auto ego = drive.open();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/saca/planes_making.h"
-#include "saca/eval/shadow_rows.h"
+#include "saca/lab/eval/shadow_rows.h"
 
 namespace saca::app {
 
@@ -18,14 +18,14 @@ struct TrafficWatch {
   int count = 1'000;                 ///< of each source, drawn by `seed`
   std::uint64_t seed = 1;
   std::string car = "compact_rwd_ev";
-  preview::Thresholds thresholds;
+  reflex::Thresholds thresholds;
   std::string output;  ///< page and figures; the journal lies beside
   int threads = 1;
 };
 
 /// A recorded drive as a scenario, and what of it counts.
 struct RecordedEgo {
-  sim::Scenario scenario;
+  scenario::Scenario scenario;
   eval::ShadowWindow window;
 };
 

@@ -13,13 +13,13 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/settings.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/core/parallel.h"
-#include "saca/manoeuvre/car.h"
-#include "saca/tune/minimise.h"
-#include "saca/tune/trials.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/tune/minimise.h"
+#include "saca/lab/tune/trials.h"
+#include "saca/onboard/manoeuvre/car.h"
+#include "saca/onboard/vehicle/parameters.h"
 
 namespace saca::app {
 namespace {
@@ -182,9 +182,9 @@ int tune_car(TuneOptions options) {
   }
   car.tuning.domain = *domain;
 
-  const std::string comment =
-      fmt::format("Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/tune/trials.h).",
-                  command_line(options), *swerve.value(), *drift.value());
+  const std::string comment = fmt::format(
+      "Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/lab/tune/trials.h).",
+      command_line(options), *swerve.value(), *drift.value());
   if (auto problem = write_output(output, manoeuvre::tuning_text(car.tuning, comment))) {
     return refused(*problem);
   }

@@ -11,13 +11,13 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/core/names.h"
-#include "saca/core/units.h"
-#include "saca/tune/fit_car_file.h"
-#include "saca/tune/fit_drive.h"
-#include "saca/tune/fit_vehicle.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/names.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/tune/fit_car_file.h"
+#include "saca/lab/tune/fit_drive.h"
+#include "saca/lab/tune/fit_vehicle.h"
+#include "saca/onboard/vehicle/parameters.h"
 
 namespace saca::app {
 namespace {

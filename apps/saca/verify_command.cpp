@@ -11,11 +11,11 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
-#include "saca/config/json_text.h"
-#include "saca/core/file.h"
-#include "saca/core/printable.h"
-#include "saca/loop/provenance.h"
-#include "saca/report/explanation.h"
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/printable.h"
+#include "saca/lab/encounter/provenance.h"
+#include "saca/lab/report/explanation.h"
 
 namespace saca::app {
 namespace {
@@ -42,15 +42,15 @@ Result<json> read_now(const std::string& car, bool with_atlas) {
   if (!inputs.has_value()) {
     return inputs.error();
   }
-  std::optional<manoeuvre::Atlas> atlas;
+  std::optional<atlas::Atlas> atlas;
   if (with_atlas) {
     atlas = usual_atlas(inputs.value());
   }
-  return loop::inputs_json({.car = &inputs.value().car,
-                            .harm = &inputs.value().harm,
-                            .atlas = atlas ? &*atlas : nullptr,
-                            .cues = &inputs.value().cues},
-                           inputs.value().intent, car);
+  return encounter::inputs_json({.car = &inputs.value().car,
+                                 .harm = &inputs.value().harm,
+                                 .atlas = atlas ? &*atlas : nullptr,
+                                 .cues = &inputs.value().cues},
+                                inputs.value().intent, car);
 }
 
 /// One of a list of inputs; nullptr: there is none.
@@ -110,7 +110,7 @@ int verify(const VerifyOptions& options) {
   try {
     const json& made = *found;
     const auto recorded = made.at("content").get<std::string>();
-    const std::string content = loop::content_digest(record);
+    const std::string content = encounter::content_digest(record);
     const auto all = compared(made);
     if (!all.has_value()) {
       return refused(all.error());

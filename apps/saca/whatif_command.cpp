@@ -13,10 +13,10 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/whatif.h"
-#include "saca/report/map_svg.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/whatif.h"
+#include "saca/lab/report/map_svg.h"
 
 namespace saca::app {
 namespace {
@@ -37,9 +37,9 @@ struct WhatifCommand {
 constexpr std::size_t most_cells = 40'000;
 
 /// The scenario at one place of the map, or why there is none.
-Result<sim::Scenario> scenario_at(const ScenarioInputs& inputs, double time,
-                                  const std::vector<Axis>& axes, std::size_t cell) {
-  auto changed = Result<sim::Scenario>(inputs.scenario);
+Result<scenario::Scenario> scenario_at(const ScenarioInputs& inputs, double time,
+                                       const std::vector<Axis>& axes, std::size_t cell) {
+  auto changed = Result<scenario::Scenario>(inputs.scenario);
   for (const Axis& axis : axes) {
     const double value = axis.values[cell % axis.values.size()];
     cell /= axis.values.size();
@@ -73,7 +73,7 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
       return std::optional<std::vector<Cell>>();
     }
     const std::size_t to = std::min(cells.size(), from + at_once);
-    std::vector<std::optional<sim::Scenario>> varied(to - from);
+    std::vector<std::optional<scenario::Scenario>> varied(to - from);
     in_parallel(to - from, threads, [&](std::size_t i) {
       const auto scenario = scenario_at(inputs, time, axes, from + i);
       if (scenario.has_value()) {
@@ -112,8 +112,8 @@ report::MapCell drawn(const Cell& cell) {
   if (!cell.possible) {
     return {.verdict = report::MapVerdict::unplayable};
   }
-  const bool no_risk =
-      *cell.harms[manoeuvre::index(manoeuvre::PolicyId::no_intervention)] < 0.5 * outcome::harm_tie;
+  const bool no_risk = *cell.harms[manoeuvre::index(manoeuvre::PolicyId::no_intervention)] <
+                       0.5 * collision::harm_tie;
   return {.verdict = no_risk ? report::MapVerdict::no_risk : report::MapVerdict::decided,
           .best = cell.best,
           .margin = cell.margin,

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "saca/core/other_unit.h"
-#include "saca/core/suggestion.h"
+#include "saca/base/core/other_unit.h"
+#include "saca/base/core/suggestion.h"
 
 namespace saca::app {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/manoeuvre/plan.h"
+#include "saca/onboard/manoeuvre/plan.h"
 
 namespace saca::app {
 

@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/config/tensors.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/experience.h"
-#include "saca/danger/learned.h"
-#include "saca/danger/network.h"
-#include "saca/danger/transition_file.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/train/danger_training.h"
+#include "saca/base/config/tensors.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/experience.h"
+#include "saca/lab/learned_danger/learned.h"
+#include "saca/lab/learned_danger/network.h"
+#include "saca/lab/learned_danger/transition_file.h"
+#include "saca/lab/network_training/danger_training.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace {
 
@@ -36,7 +36,7 @@ struct Options {
   std::string output;
   std::string root = ".";
   int threads = usual_threads();
-  train::DangerPlan plan;
+  network_training::DangerPlan plan;
   int pair_steps = 20'000;
   std::string values_of;  ///< weights; empty: none
   std::string q_of;       ///< likewise
@@ -47,28 +47,28 @@ struct Options {
 
 /// What was read, and what the weights' file says of it.
 struct Data {
-  danger::Experience singles{.num_obstacles = 1};
-  danger::Experience pairs{.num_obstacles = 2};
+  learned_danger::Experience singles{.num_obstacles = 1};
+  learned_danger::Experience pairs{.num_obstacles = 2};
   std::string car;
-  std::string vehicle;          ///< danger::vehicle_word
+  std::string vehicle;          ///< learned_danger::vehicle_word
   std::size_t transitions = 0;  ///< in the files
   std::size_t drives = 0;
 };
 
-std::string_view words_for(const danger::Experience& experience) {
+std::string_view words_for(const learned_danger::Experience& experience) {
   return experience.num_obstacles == 1 ? "one obstacle" : "two obstacles";
 }
 
 Result<Data> read_data(const std::string& folder, const std::string& root) {
-  const auto parts = danger::part_files(folder);
+  const auto parts = learned_danger::part_files(folder);
   if (!parts.has_value()) {
     return parts.error();
   }
   Data data;
   world::Footprint body;
   for (const fs::path& path : parts.value()) {
-    const auto part =
-        data.car.empty() ? danger::read_part(path) : danger::read_part_of(path, data.car);
+    const auto part = data.car.empty() ? learned_danger::read_part(path)
+                                       : learned_danger::read_part_of(path, data.car);
     if (!part.has_value()) {
       return part.error();
     }
@@ -79,10 +79,10 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
         return car.error();
       }
       body = manoeuvre::footprint(car.value());
-      data.vehicle = danger::vehicle_word(car.value());
+      data.vehicle = learned_danger::vehicle_word(car.value());
     }
-    for (danger::Experience* all : {&data.singles, &data.pairs}) {
-      danger::add_experience(*all, part.value().transitions, body);
+    for (learned_danger::Experience* all : {&data.singles, &data.pairs}) {
+      learned_danger::add_experience(*all, part.value().transitions, body);
     }
     data.transitions += part.value().transitions.size();
     data.drives += part.value().transitions.drives;
@@ -90,7 +90,7 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
       break;
     }
   }
-  for (const danger::Experience* all : {&data.singles, &data.pairs}) {
+  for (const learned_danger::Experience* all : {&data.singles, &data.pairs}) {
     if (all->size() == 0) {
       return Error{Error::Code::out_of_range,
                    fmt::format("{}: want situations with {}, got none", folder, words_for(*all))};
@@ -102,20 +102,22 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
 /// Tells of a training, and keeps its curve.
 class Curve {
  public:
-  std::function<bool(const train::DangerProgress&)> of(const danger::Experience& experience) {
+  std::function<bool(const network_training::DangerProgress&)> of(
+      const learned_danger::Experience& experience) {
     fmt::print("{} transitions beside {}\n", experience.size(), words_for(experience));
     std::fflush(stdout);
-    return [this, obstacles = experience.num_obstacles](const train::DangerProgress& now) {
-      text_ += fmt::format("{},{},{:.5f},{:.5f},{:.4f},{:.5f},{:.1f}\n", obstacles, now.step,
-                           now.v_loss, now.q_loss, now.mean_v, now.above, now.seconds);
-      seconds_ += now.seconds;
-      fmt::print(
-          "step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, above what was "
-          "reached {:.2f} %, {:.0f} s\n",
-          now.step, now.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
-      std::fflush(stdout);
-      return !train_program::is_to_stop();
-    };
+    return
+        [this, obstacles = experience.num_obstacles](const network_training::DangerProgress& now) {
+          text_ += fmt::format("{},{},{:.5f},{:.5f},{:.4f},{:.5f},{:.1f}\n", obstacles, now.step,
+                               now.v_loss, now.q_loss, now.mean_v, now.above, now.seconds);
+          seconds_ += now.seconds;
+          fmt::print(
+              "step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, above what was "
+              "reached {:.2f} %, {:.0f} s\n",
+              now.step, now.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
+          std::fflush(stdout);
+          return !train_program::is_to_stop();
+        };
   }
   [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -131,16 +133,16 @@ class Trainings {
   Trainings(const Options& options, const Data& data, const config::Tensors& earlier)
       : options_(options), data_(data), earlier_(earlier) {}
 
-  Result<train::DangerNets> singles() {
+  Result<network_training::DangerNets> singles() {
     return trained(data_.singles, nullptr, options_.plan, state());
   }
-  Result<train::DangerNets> pairs(train::DangerNets& singles) {
-    train::DangerPlan plan = options_.plan;
+  Result<network_training::DangerNets> pairs(network_training::DangerNets& singles) {
+    network_training::DangerPlan plan = options_.plan;
     plan.steps = options_.pair_steps;
     return trained(data_.pairs, &singles, plan, pairs_state());
   }
   /// What is shipped of networks.
-  void add_to(config::Tensors& tensors, const train::DangerNets& nets,
+  void add_to(config::Tensors& tensors, const network_training::DangerNets& nets,
               const std::string& prefix) const {
     if (options_.values_of.empty()) {
       nets->add_to(tensors, prefix);
@@ -157,14 +159,16 @@ class Trainings {
   [[nodiscard]] const std::string& curve() const { return curve_.text(); }
 
  private:
-  Result<train::DangerNets> trained(const danger::Experience& experience,
-                                    train::DangerNets* singles, const train::DangerPlan& plan,
-                                    const std::string& state) {
+  Result<network_training::DangerNets> trained(const learned_danger::Experience& experience,
+                                               network_training::DangerNets* singles,
+                                               const network_training::DangerPlan& plan,
+                                               const std::string& state) {
     if (!options_.q_of.empty()) {
-      return train::improved_q(experience, train::danger_net(earlier_, "v."), plan,
-                               options_.threads, state, curve_.of(experience));
+      return network_training::improved_q(experience, network_training::danger_net(earlier_, "v."),
+                                          plan, options_.threads, state, curve_.of(experience));
     }
-    const auto& learn = options_.values_of.empty() ? train::trained_danger : train::policy_values;
+    const auto& learn = options_.values_of.empty() ? network_training::trained_danger
+                                                   : network_training::policy_values;
     return learn(experience, singles, plan, options_.threads, state, curve_.of(experience));
   }
   [[nodiscard]] std::string state() const { return options_.output + ".state"; }
@@ -187,7 +191,7 @@ Result<config::Tensors> earlier_weights(const Options& options, const Data& data
   if (!tensors.has_value()) {
     return tensors.error();
   }
-  const auto network = danger::Network::from(tensors.value(), path);
+  const auto network = learned_danger::Network::from(tensors.value(), path);
   if (!network.has_value()) {
     return network.error();
   }
@@ -217,7 +221,7 @@ int train_danger(const Options& options) {
   const bool improves = !options.q_of.empty();
   const bool with_pairs = options.pair_steps > 0 && !improves;
   if (improves) {
-    danger::keep_held(data.singles, options.hold_looks);
+    learned_danger::keep_held(data.singles, options.hold_looks);
   }
   config::Tensors tensors = earlier.value();
   Trainings trainings(options, data, earlier.value());
@@ -228,7 +232,7 @@ int train_danger(const Options& options) {
   if (train_program::is_to_stop()) {
     return train_program::stopped(program);
   }
-  train::DangerNets nets = singles.value();
+  network_training::DangerNets nets = singles.value();
   const auto word = [&](const char* name) {
     const auto found = tensors.words.find(name);
     return found != tensors.words.end() ? found->second : std::string("0");
@@ -260,7 +264,7 @@ int train_danger(const Options& options) {
        options.earlier().empty() ? fmt::format("{}", options.plan.expectile) : word("expectile")},
       {"discount", fmt::format("{}", options.plan.discount)}};
   tensors.words.clear();
-  const auto network = danger::Network::from(tensors, options.output);
+  const auto network = learned_danger::Network::from(tensors, options.output);
   if (!network.has_value()) {
     return train_program::failed(program, network.error());
   }

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/config/compressed_text.h"
-#include "saca/core/fnv.h"
-#include "saca/eval/transfer.h"
-#include "saca/memory/case_json.h"
-#include "saca/memory/experience.h"
-#include "saca/train/imitator_net.h"
+#include "saca/base/config/compressed_text.h"
+#include "saca/base/core/fnv.h"
+#include "saca/lab/eval/transfer.h"
+#include "saca/lab/network_training/imitator_net.h"
+#include "saca/thinking/memory/case_json.h"
+#include "saca/thinking/memory/experience.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ struct Options {
   std::string cases;
   std::string output;
   double dropout = 0.2;
-  train::Schedule schedule{.seed = 1, .epochs = 200, .batch = 256, .step = 2e-3};
+  network_training::Schedule schedule{.seed = 1, .epochs = 200, .batch = 256, .step = 2e-3};
 };
 
 constexpr std::size_t many_bytes = std::size_t{1} << 30U;
@@ -89,9 +89,9 @@ int train_imitator(const Options& options) {
   std::fflush(stdout);
   std::string curve = "epoch,training_loss,held_out_loss\n";
   const std::string state = options.output + ".state";
-  const auto network = train::trained_imitator(
-      train::imitator_pieces(shown), train::imitator_pieces(watched), options.schedule,
-      options.dropout, state, [&](const train::Epoch& now) {
+  const auto network = network_training::trained_imitator(
+      network_training::imitator_pieces(shown), network_training::imitator_pieces(watched),
+      options.schedule, options.dropout, state, [&](const network_training::Epoch& now) {
         const double other = now.held_out.value_or(std::nan(""));
         curve += fmt::format("{},{:.5f},{:.5f}\n", now.number, now.loss, other);
         return train_program::show_epoch(now, options.schedule.epochs);

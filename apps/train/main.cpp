@@ -14,21 +14,21 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/core/parallel.h"
-#include "saca/intent/model.h"
-#include "saca/learn/calibration.h"
-#include "saca/learn/evaluation.h"
-#include "saca/learn/sequence_file.h"
-#include "saca/train/lessons.h"
-#include "saca/train/training.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/network_training/lessons.h"
+#include "saca/lab/network_training/training.h"
+#include "saca/lab/training/calibration.h"
+#include "saca/lab/training/evaluation.h"
+#include "saca/lab/training/sequence_file.h"
+#include "saca/thinking/intent/model.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace saca;
-using learn::Sequence;
+using training::Sequence;
 
 constexpr std::string_view program = "saca-train";
 
@@ -38,24 +38,24 @@ struct Options {
   std::string calibrate;
   std::string leave_out;
   std::string teachers;
-  double taught_share = train::Lessons().share;
+  double taught_share = network_training::Lessons().share;
   int networks = 1;
-  train::TrainingPlan plan;
+  network_training::TrainingPlan plan;
 };
 
 /// What a model may see, and what it is judged on while it learns.
 struct Data {
   std::vector<Sequence> training;
   std::vector<Sequence> held_out;
-  train::Lessons lessons;
+  network_training::Lessons lessons;
 };
 
 Result<Data> read_data(const Options& options) {
-  auto read = learn::read_sequences(options.sequences);
+  auto read = training::read_sequences(options.sequences);
   if (!read.has_value()) {
     return read.error();
   }
-  learn::SequenceSet set = std::move(read).value();
+  training::SequenceSet set = std::move(read).value();
   Data data;
   std::vector<Sequence> simulated_test;
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
@@ -79,7 +79,7 @@ Result<Data> read_data(const Options& options) {
     data.held_out = std::move(simulated_test);
   }
   if (!options.teachers.empty()) {
-    auto lessons = train::read_lessons(options.teachers, data.training, data.held_out);
+    auto lessons = network_training::read_lessons(options.teachers, data.training, data.held_out);
     if (!lessons.has_value()) {
       return lessons.error();
     }
@@ -141,25 +141,25 @@ Result<std::vector<ModelFile>> read_model_files(const fs::path& folder) {
 }
 
 /// Of the recorded sequences, what models without calibration predict that have not seen them.
-Result<std::vector<learn::Forecasts>> unseen_forecasts(std::vector<ModelFile> files,
-                                                       std::span<const Sequence> recorded,
-                                                       std::span<const std::string> splits) {
-  learn::ModelsByLeftOut models;
+Result<std::vector<training::Forecasts>> unseen_forecasts(std::vector<ModelFile> files,
+                                                          std::span<const Sequence> recorded,
+                                                          std::span<const std::string> splits) {
+  training::ModelsByLeftOut models;
   for (ModelFile& file : files) {
-    train::set_calibrations(file.tensors, {});
+    network_training::set_calibrations(file.tensors, {});
     auto model = intent::model_from(file.tensors, file.path.string());
     if (!model.has_value()) {
       return model.error();
     }
     models.emplace(file.left_out, std::move(model).value());
   }
-  return learn::predicted_unseen(models, recorded, splits, usual_threads());
+  return training::predicted_unseen(models, recorded, splits, usual_threads());
 }
 
 /// Calibrates each model of a folder on what models that had left a split out predict of it: on
 /// all splits but the one, or sequences of all sites but the one, that it has left out itself.
 int calibrate_models(const Options& options) {
-  const auto set = learn::read_sequences(options.sequences);
+  const auto set = training::read_sequences(options.sequences);
   if (!set.has_value()) {
     return train_program::failed(program, set.error());
   }
@@ -182,14 +182,15 @@ int calibrate_models(const Options& options) {
   }
   for (ModelFile& file : files) {
     std::vector<Sequence> sequences;
-    std::vector<learn::Forecasts> of_them;
+    std::vector<training::Forecasts> of_them;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
       if (splits[i] != file.left_out && recorded[i].site != file.left_out) {
         sequences.push_back(recorded[i]);
         of_them.push_back(forecasts.value()[i]);
       }
     }
-    train::set_calibrations(file.tensors, learn::best_calibrations(sequences, of_them));
+    network_training::set_calibrations(file.tensors,
+                                       training::best_calibrations(sequences, of_them));
     if (const auto problem = write_file(file.path, config::tensor_bytes(file.tensors))) {
       return train_program::failed(program, *problem);
     }
@@ -206,15 +207,15 @@ int train_model(const Options& options) {
   const Data data = std::move(read).value();
   fmt::print("{} sequences to train with, {} held out\n", data.training.size(),
              data.held_out.size());
-  std::vector<train::LstmCrf> networks;
+  std::vector<network_training::LstmCrf> networks;
   std::string curve = "network,epoch,training_loss,held_out_loss,seconds\n";
   for (int i = 0; i < options.networks; ++i) {
-    train::TrainingPlan plan = options.plan;
+    network_training::TrainingPlan plan = options.plan;
     plan.seed = options.plan.seed + static_cast<std::uint64_t>(i);
     const fs::path state = fmt::format("{}.network{}.state", options.output, i);
-    auto network = train::trained(
+    auto network = network_training::trained(
         data.training, data.held_out, plan, state,
-        [&](const train::Epoch& now) {
+        [&](const network_training::Epoch& now) {
           const double held_out = now.held_out.value_or(std::nan(""));
           curve += fmt::format("{},{},{:.5f},{:.5f},{:.1f}\n", i, now.number, now.loss, held_out,
                                now.seconds);
@@ -233,7 +234,7 @@ int train_model(const Options& options) {
     }
     networks.push_back(network.value());
   }
-  const config::Tensors tensors = described(options, train::model_tensors(networks));
+  const config::Tensors tensors = described(options, network_training::model_tensors(networks));
   if (const auto problem = train_program::write_trained(options.output, tensors, curve)) {
     return train_program::failed(program, *problem);
   }

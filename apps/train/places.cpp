@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/core/fnv.h"
-#include "saca/core/parallel.h"
-#include "saca/eval/place_examples.h"
-#include "saca/eval/suite.h"
-#include "saca/eval/suite_source.h"
-#include "saca/eval/traffic_drives.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/train/place_mixture.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/eval/place_examples.h"
+#include "saca/lab/eval/suite.h"
+#include "saca/lab/eval/suite_source.h"
+#include "saca/lab/eval/traffic_drives.h"
+#include "saca/lab/network_training/place_mixture.h"
+#include "saca/onboard/manoeuvre/ego.h"
 
 namespace {
 
@@ -42,7 +42,7 @@ struct Options {
   int threads = 1;
   std::size_t longest = 100;
   double dropout = 0.1;
-  train::Schedule schedule{.seed = 1, .epochs = 15, .batch = 3'600};
+  network_training::Schedule schedule{.seed = 1, .epochs = 15, .batch = 3'600};
 };
 
 /// One in so many encounters, or groups of drives, is not learnt from but watched.
@@ -51,7 +51,7 @@ constexpr std::size_t held_out_share = 8;
 /// What is played, and with what.
 struct World {
   manoeuvre::Car car;
-  outcome::HarmModel harm;
+  collision::HarmModel harm;
   intent::Model intent;
 };
 
@@ -60,7 +60,7 @@ Result<World> read_world(const fs::path& root) {
   if (!car.has_value()) {
     return car.error();
   }
-  auto harm = outcome::read_harm(root / "data/harm.toml");
+  auto harm = collision::read_harm(root / "data/harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }
@@ -81,14 +81,14 @@ struct Data {
   }
 };
 
-Sequences examples_in(const sim::Scenario& scenario, const sim::Chance& chance,
+Sequences examples_in(const scenario::Scenario& scenario, const scenario::Chance& chance,
                       const eval::ForecastWindow& window, const World& world) {
-  const loop::Stage stage{.scenario = &scenario,
-                          .car = &world.car,
-                          .harm = &world.harm,
-                          .intent = &world.intent,
-                          .thresholds = {},
-                          .chance = chance};
+  const encounter::Stage stage{.scenario = &scenario,
+                               .car = &world.car,
+                               .harm = &world.harm,
+                               .intent = &world.intent,
+                               .thresholds = {},
+                               .chance = chance};
   auto examples = eval::place_examples(stage, window);
   return examples.has_value() ? std::move(examples).value() : Sequences();
 }
@@ -98,7 +98,7 @@ std::optional<Error> add_suite(const std::string& suite, const Options& options,
                                Data& data) {
   const auto source = eval::SuiteSource::open({.scenarios = fs::path(options.root) / "scenarios",
                                                .suite = suite,
-                                               .split = sim::Split::tuning,
+                                               .split = families::Split::tuning,
                                                .test_log = std::nullopt,
                                                .car = "compact_rwd_ev",
                                                .footprint = manoeuvre::footprint(world.car)});
@@ -173,8 +173,8 @@ int train_places(const Options& options) {
       return train_program::failed(program, *problem);
     }
   }
-  const auto pieces = train::place_pieces(data.training, options.longest);
-  const auto held_out = train::place_pieces(data.held_out, options.longest);
+  const auto pieces = network_training::place_pieces(data.training, options.longest);
+  const auto held_out = network_training::place_pieces(data.held_out, options.longest);
   fmt::print("{} pieces to train with, {} held out\n", pieces.size(), held_out.size());
   std::fflush(stdout);
   if (pieces.empty()) {
@@ -183,8 +183,9 @@ int train_places(const Options& options) {
   }
   std::string curve = "epoch,training_loss,held_out_loss,seconds\n";
   const std::string state = options.output + ".state";
-  const auto network = train::trained_mixture(
-      pieces, held_out, options.schedule, options.dropout, state, [&](const train::Epoch& now) {
+  const auto network = network_training::trained_mixture(
+      pieces, held_out, options.schedule, options.dropout, state,
+      [&](const network_training::Epoch& now) {
         const double other = now.held_out.value_or(std::nan(""));
         curve += fmt::format("{},{:.5f},{:.5f},{:.1f}\n", now.number, now.loss, other, now.seconds);
         return train_program::show_epoch(now, options.schedule.epochs);

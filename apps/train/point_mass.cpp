@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/core/file.h"
-#include "saca/core/parallel.h"
-#include "saca/danger/experience.h"
-#include "saca/danger/point_mass.h"
-#include "saca/reach/authors_comparison.h"
-#include "saca/reach/value_table.h"
-#include "saca/train/danger_training.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
+#include "saca/lab/learned_danger/experience.h"
+#include "saca/lab/learned_danger/point_mass.h"
+#include "saca/lab/network_training/danger_training.h"
+#include "saca/lab/verification/authors_comparison.h"
+#include "saca/thinking/danger/value_table.h"
 
 namespace {
 
@@ -36,7 +36,7 @@ struct Options {
   int drives = 200'000;
   int states = 300'000;
   int threads = usual_threads();
-  train::DangerPlan plan;
+  network_training::DangerPlan plan;
 };
 
 /// Prints the points of a curve, and keeps them as a table.
@@ -44,7 +44,7 @@ class Curve {
  public:
   explicit Curve(std::string name) : name_(std::move(name)) {}
 
-  bool add(const train::DangerProgress& now) {
+  bool add(const network_training::DangerProgress& now) {
     seconds_ += now.seconds;
     text_ += fmt::format("{},{:.5f},{:.5f},{:.4f},{:.1f}\n", now.step, now.v_loss, now.q_loss,
                          now.mean_v, now.seconds);
@@ -63,13 +63,13 @@ class Curve {
 };
 
 /// What can be told of values beside the exact ones.
-json figures_of(const danger::ExactPointMass& exact, const reach::ValueAt& value,
-                const danger::Values& values) {
+json figures_of(const learned_danger::ExactPointMass& exact, const danger::ValueAt& value,
+                const learned_danger::Values& values) {
   json all;
   constexpr int states = 100'000;
   for (const double fastest : {18.0, 30.0}) {
-    const danger::ValueErrors errors =
-        danger::value_errors(exact.problem, value, values, fastest, states, 1);
+    const learned_danger::ValueErrors errors =
+        learned_danger::value_errors(exact.problem, value, values, fastest, states, 1);
     all[fmt::format("up_to_{:g}mps", fastest)] = {{"states", errors.states},
                                                   {"mean_error_m", errors.mean_size},
                                                   {"p99_error_m", errors.p99_size},
@@ -79,8 +79,8 @@ json figures_of(const danger::ExactPointMass& exact, const reach::ValueAt& value
   return all;
 }
 
-json lattice_figures(const reach::AuthorsComparison& found) {
-  const auto of = [](const reach::Agreement& agreement) {
+json lattice_figures(const verification::AuthorsComparison& found) {
+  const auto of = [](const verification::Agreement& agreement) {
     return json{{"states", agreement.states},
                 {"same_sign", agreement.sign_agreement()},
                 {"false_safe", agreement.false_safe_share()},
@@ -89,38 +89,39 @@ json lattice_figures(const reach::AuthorsComparison& found) {
   return {{"all", of(found.all)}, {"at_18mps", of(found.by_speed.back().agreement)}};
 }
 
-std::vector<reach::State> states_of(std::span<const reach::AuthorsState> some) {
-  std::vector<reach::State> all;
+std::vector<danger::State> states_of(std::span<const verification::AuthorsState> some) {
+  std::vector<danger::State> all;
   all.reserve(some.size());
-  for (const reach::AuthorsState& one : some) {
+  for (const verification::AuthorsState& one : some) {
     all.push_back({one.x, one.y, one.yaw, one.speed});
   }
   return all;
 }
 
-json rung_figures(const danger::ExactPointMass& exact, const reach::ValueAt& value,
-                  train::DangerNet v) {
-  const auto values = [&](std::span<const reach::State> states) {
-    std::vector<danger::SeenByNet> seen;
+json rung_figures(const learned_danger::ExactPointMass& exact, const danger::ValueAt& value,
+                  network_training::DangerNet v) {
+  const auto values = [&](std::span<const danger::State> states) {
+    std::vector<learned_danger::SeenByNet> seen;
     seen.reserve(states.size());
-    for (const reach::State& at : states) {
-      seen.push_back(danger::seen_by_net(exact.problem, at));
+    for (const danger::State& at : states) {
+      seen.push_back(learned_danger::seen_by_net(exact.problem, at));
     }
-    return train::values_of(v, seen);
+    return network_training::values_of(v, seen);
   };
   json all = figures_of(exact, value, values);
-  all["authors_lattice"] = lattice_figures(reach::compare_with_authors(
-      value, [&](std::span<const reach::AuthorsState> some) { return values(states_of(some)); }));
+  all["authors_lattice"] = lattice_figures(verification::compare_with_authors(
+      value,
+      [&](std::span<const verification::AuthorsState> some) { return values(states_of(some)); }));
   return all;
 }
 
 int train_point_mass(const Options& options) {
-  const auto read = danger::read_exact_point_mass(options.table);
+  const auto read = learned_danger::read_exact_point_mass(options.table);
   if (!read.has_value()) {
     return train_program::failed(program, read.error());
   }
-  const danger::ExactPointMass& exact = read.value();
-  const reach::ValueAt value = exact.value();
+  const learned_danger::ExactPointMass& exact = read.value();
+  const danger::ValueAt value = exact.value();
   json figures;
   const fs::path folder = options.output;
   std::error_code problem;
@@ -129,11 +130,11 @@ int train_point_mass(const Options& options) {
   Curve of_fitted("fitted iteration");
   config::Tensors fitted_weights;
   {
-    const danger::Outcomes outcomes =
-        danger::point_mass_outcomes(exact.problem, value, options.states, options.plan.seed);
-    const auto fitted =
-        train::fitted_values(outcomes, options.plan, options.threads, folder / "fitted.state",
-                             [&](const train::DangerProgress& now) { return of_fitted.add(now); });
+    const learned_danger::Outcomes outcomes = learned_danger::point_mass_outcomes(
+        exact.problem, value, options.states, options.plan.seed);
+    const auto fitted = network_training::fitted_values(
+        outcomes, options.plan, options.threads, folder / "fitted.state",
+        [&](const network_training::DangerProgress& now) { return of_fitted.add(now); });
     if (!fitted.has_value()) {
       return train_program::failed(program, fitted.error());
     }
@@ -145,15 +146,15 @@ int train_point_mass(const Options& options) {
     figures["fitted_iteration"]["seconds"] = of_fitted.seconds();
     fmt::print("{}\n", figures["fitted_iteration"].dump());
   }
-  danger::Experience experience;
-  const danger::Transitions made =
-      danger::point_mass_transitions(exact.problem, value, options.drives, options.plan.seed + 1);
-  danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
+  learned_danger::Experience experience;
+  const learned_danger::Transitions made = learned_danger::point_mass_transitions(
+      exact.problem, value, options.drives, options.plan.seed + 1);
+  learned_danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
   fmt::print("{} transitions\n", experience.size());
   Curve of_offline("from data");
-  const auto nets = train::trained_danger(
+  const auto nets = network_training::trained_danger(
       experience, nullptr, options.plan, options.threads, folder / "offline.state",
-      [&](const train::DangerProgress& now) { return of_offline.add(now); });
+      [&](const network_training::DangerProgress& now) { return of_offline.add(now); });
   if (!nets.has_value()) {
     return train_program::failed(program, nets.error());
   }

@@ -7,9 +7,9 @@
 #include <csignal>
 #include <cstdio>
 
-#include "saca/core/file.h"
-#include "saca/core/standard_files.h"
-#include "saca/train/blas.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/standard_files.h"
+#include "saca/lab/network_training/blas.h"
 
 namespace saca::train_program {
 namespace {
@@ -19,7 +19,7 @@ volatile std::sig_atomic_t was_told_to_stop = 0;
 }  // namespace
 
 void begin(char** argv) {
-  train::give_each_thread_its_own_products(argv);
+  network_training::give_each_thread_its_own_products(argv);
   occupy_standard_files();
   torch::set_num_threads(1);
   std::signal(SIGINT, [](int) { was_told_to_stop = 1; });
@@ -36,7 +36,7 @@ int failed(std::string_view program, const Error& error) {
   return error.code == Error::Code::unwritable ? cannot_write : bad_input;
 }
 
-bool show_epoch(const train::Epoch& now, int epochs) {
+bool show_epoch(const network_training::Epoch& now, int epochs) {
   fmt::print("epoch {} of {}: loss {:.4f}, held out {:.4f}, {:.1f} s\n", now.number, epochs,
              now.loss, now.held_out.value_or(std::nan("")), now.seconds);
   std::fflush(stdout);

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "saca/config/tensors.h"
-#include "saca/core/result.h"
-#include "saca/train/task.h"
+#include "saca/base/config/tensors.h"
+#include "saca/base/core/result.h"
+#include "saca/lab/network_training/task.h"
 
 /// What all training programs share: how they begin, are stopped and end.
 namespace saca::train_program {
@@ -26,7 +26,7 @@ void begin(char** argv);
 
 /// Prints an epoch of so many.
 /// @return  whether to go on
-[[nodiscard]] bool show_epoch(const train::Epoch& now, int epochs);
+[[nodiscard]] bool show_epoch(const network_training::Epoch& now, int epochs);
 
 /// Writes the weights, and beside them ("....curve.csv") the curve.
 [[nodiscard]] std::optional<Error> write_trained(const std::string& output,

@@ -1,6 +1,6 @@
 #include "saca/runtime/avoider.h"
 
-#include "saca/core/contract.h"
+#include "saca/base/core/contract.h"
 
 namespace saca {
 namespace {
@@ -22,7 +22,7 @@ Avoider::Avoider(const AvoiderSetup& setup)
       events_(most_events),
       planes_(setup.planes,
               setup.thinking.value_or(runtime::Planes::Listener{
-                  .event = [this](const decide::Event& event) { events_.thought(event); }}),
+                  .event = [this](const arbitration::Event& event) { events_.thought(event); }}),
               setup.num_timed) {}
 
 Answer Avoider::step(const world::Scene& scene, Clock::Time at) {
@@ -46,7 +46,7 @@ Answer Avoider::answer(const runtime::IntakeResult& taken, Clock::Time at) {
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
   grip_ = scene.grip;
-  const decide::Reflex reflex = planes_.step(scene, beliefs, at, finished_);
+  const reflex::Reflex reflex = planes_.step(scene, beliefs, at, finished_);
   answer.threat = reflex.threat;
   answer.triggered = reflex.triggered;
   answer.switched = reflex.switched;

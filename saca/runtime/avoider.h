@@ -4,17 +4,17 @@
 #include <optional>
 #include <string>
 
-#include "saca/core/clock.h"
-#include "saca/decide/reflex_plane.h"
-#include "saca/intent/model.h"
-#include "saca/intent/observer.h"
-#include "saca/manoeuvre/execution.h"
-#include "saca/preview/threat.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/world/scene.h"
+#include "saca/onboard/manoeuvre/execution.h"
+#include "saca/onboard/reflex/reflex_plane.h"
+#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/vehicle/vehicle.h"
 #include "saca/runtime/event_log.h"
 #include "saca/runtime/intake.h"
 #include "saca/runtime/planes.h"
-#include "saca/vehicle/vehicle.h"
-#include "saca/world/scene.h"
+#include "saca/thinking/intent/model.h"
+#include "saca/thinking/intent/observer.h"
 
 namespace saca {
 
@@ -35,9 +35,9 @@ struct Answer {
                                            ///< nullopt: the stack drives
   bool begins = false;                     ///< it begins in this very answer, as the next two tell
   bool triggered = false;                  ///< by a decision at a trigger: `Avoider::decision`
-  std::optional<decide::Switch> switched;  ///< in place of another plan; of no intervention, the
+  std::optional<reflex::Switch> switched;  ///< in place of another plan; of no intervention, the
                                            ///< wheel is given back
-  std::optional<preview::Threat> threat;   ///< as decide::Reflex has it
+  std::optional<reflex::Threat> threat;    ///< as reflex::Reflex has it
   bool degraded = false;                   ///< somebody or everything is carried on instead of seen
 };
 
@@ -88,11 +88,11 @@ class Avoider {
   ///
   /// For one thread, this one or another, which may take its time: no other waits for it. What does
   /// not fit meanwhile (`most_events`) is counted, and reported as an event.
-  [[nodiscard]] std::optional<decide::Event> next_event() { return events_.next(); }
+  [[nodiscard]] std::optional<arbitration::Event> next_event() { return events_.next(); }
   static constexpr std::size_t most_events = 256;  ///< that wait, of either thread
 
   /// The last decision at a trigger, of this encounter; nullopt: none yet.
-  [[nodiscard]] const std::optional<decide::Decision>& decision() const {
+  [[nodiscard]] const std::optional<reflex::Decision>& decision() const {
     return planes_.decision();
   }
   /// The scene by which the last answer was given, as the intake made it of what came.

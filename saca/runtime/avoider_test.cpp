@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
-#include "saca/core/contract.h"
-#include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/default_car.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/contract.h"
+#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/replay.h"
+#include "saca/thinking/intent/shipped_model.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
 #include "tests/support/system_calls.h"
@@ -80,7 +80,7 @@ class Drive {
   [[nodiscard]] runtime::Replay replayed() {
     return runtime::replay(avoider_.tape().content(),
                            {.forecast = {&car_, &harm_}, .clock = &clock_}, intent::shipped_model(),
-                           decide::usual_draws);
+                           arbitration::usual_draws);
   }
 
   /// One instant of 10 ms; actors go on evenly.
@@ -109,7 +109,7 @@ class Drive {
  private:
   SteadyClock clock_;
   manoeuvre::Car car_ = manoeuvre::default_car();
-  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
   Avoider avoider_;
   Scene scene_;
   vehicle::VehicleState state_;
@@ -259,10 +259,10 @@ TEST(Avoider, TellsWhatItDid) {
   for (int k = 0; k < 300; ++k) {
     (void)drive.step();
   }
-  std::vector<decide::Event> driving;
+  std::vector<arbitration::Event> driving;
   std::size_t num_thoughts = 0;
   while (auto event = drive.avoider().next_event()) {
-    if (event->plane == decide::Plane::thinking) {
+    if (event->plane == arbitration::Plane::thinking) {
       ++num_thoughts;
     } else {
       driving.push_back(*std::move(event));
@@ -270,9 +270,9 @@ TEST(Avoider, TellsWhatItDid) {
   }
   EXPECT_GT(num_thoughts, 0U);
   ASSERT_GE(driving.size(), 3U);
-  EXPECT_EQ(driving[0].kind, decide::EventKind::trigger);
+  EXPECT_EQ(driving[0].kind, arbitration::EventKind::trigger);
   EXPECT_THAT(driving[0].text, HasSubstr("car1"));
-  EXPECT_EQ(driving[1].text, decision_text(drive.avoider().decision().value()));
+  EXPECT_EQ(driving[1].text, arbitration::decision_text(drive.avoider().decision().value()));
   EXPECT_EQ(driving[2].text, "policy 0 AEB (arbiter)");
 }
 
@@ -280,15 +280,15 @@ TEST(Avoider, TellsWhatItDid) {
 // What was thought is handed over when the encounter is over, and in the end.
 TEST(Avoider, WhoListensToTheThinkingPlaneHearsItAtOnce) {
   const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   SteadyClock clock;
   std::size_t num_heard = 0;
   std::vector<std::pair<std::uint32_t, std::size_t>> thought;  // encounter, events of it
   const runtime::Planes::Listener listener{
-      .event = [&](const decide::Event&) { ++num_heard; },
+      .event = [&](const arbitration::Event&) { ++num_heard; },
       .thought =
-          [&](std::uint32_t encounter, const std::vector<decide::Preview>& previews,
-              const std::vector<decide::Event>& events, int) {
+          [&](std::uint32_t encounter, const std::vector<arbitration::Preview>& previews,
+              const std::vector<arbitration::Event>& events, int) {
             EXPECT_FALSE(previews.empty());
             thought.emplace_back(encounter, events.size());
           }};
@@ -320,7 +320,7 @@ TEST(Avoider, WhoListensToTheThinkingPlaneHearsItAtOnce) {
   EXPECT_EQ(thought[0].second + thought[1].second, num_heard);
   EXPECT_EQ(avoider.planes().timing().calls, 10U);
   while (const auto event = avoider.next_event()) {
-    EXPECT_NE(event->plane, decide::Plane::thinking) << event->text;
+    EXPECT_NE(event->plane, arbitration::Plane::thinking) << event->text;
   }
 }
 
@@ -452,7 +452,7 @@ class StoppedClock final : public Clock {
 // No thread beside ever comes to work on anything; the driving one decides as if there were none.
 TEST(Avoider, BrakesWhereTheClockStandsStill) {
   const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   StoppedClock clock;
   Avoider avoider(
       {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
@@ -633,7 +633,7 @@ TEST(Avoider, OutlivesWhatIsNoKindShapeOrName) {
 // At pace `real` nothing that is done on the driving thread takes memory.
 TEST(Avoider, AllocatesNothingOnTheDrivingThread) {
   const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   SteadyClock clock;
   Avoider avoider({.planes = {.forecast = {&car, &harm},
                               .pace = runtime::Pace::real,
@@ -664,7 +664,7 @@ TEST(Avoider, MakesNoSystemCallOnTheDrivingThread) {
     GTEST_SKIP() << why;
   }
   const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
   scene.ego_mass = car.mass;
   scene.actors.push_back(test::car(1, {40.0, 0.0}));

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "saca/decide/forecaster.h"
 #include "saca/runtime/work_thread.h"
+#include "saca/thinking/arbitration/forecaster.h"
 
 namespace saca::runtime {
 
@@ -22,7 +22,7 @@ class ChargedForecasts {
   using Cost = std::function<double(const TimedScene&)>;
 
   /// @param cost  of the verdict of a scene [s], >= 0
-  ChargedForecasts(decide::Judge judge, Cost cost)
+  ChargedForecasts(arbitration::Judge judge, Cost cost)
       : judge_(std::move(judge)), cost_(std::move(cost)) {}
 
   /// Begins a round unless the last one was begun less than a period ago, or is still worked on.
@@ -49,7 +49,7 @@ class ChargedForecasts {
     double ready = 0.0;  ///< [s]
   };
 
-  decide::Judge judge_;
+  arbitration::Judge judge_;
   Cost cost_;
   std::deque<Round> rounds_;  ///< by time; what nobody can take any more is dropped
   double free_at_ = never;    ///< [s]

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/manoeuvre/default_car.h"
+#include "saca/onboard/manoeuvre/default_car.h"
 #include "tests/support/scenes.h"
 
 namespace saca::runtime::charged_forecasts_test {
@@ -24,9 +24,9 @@ class ChargedForecastsTest : public ::testing::Test {
   }
 
   manoeuvre::Car car_ = manoeuvre::default_car();
-  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
-  decide::Judge judge_ = [one = decide::Forecaster({.car = &car_, .harm = &harm_}, 1)](
-                             const auto&... seen) { return one.judge(seen...); };
+  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  arbitration::Judge judge_ = [one = arbitration::Forecaster({.car = &car_, .harm = &harm_}, 1)](
+                                  const auto&... seen) { return one.judge(seen...); };
 };
 
 TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {

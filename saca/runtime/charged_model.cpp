@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "saca/config/config.h"
+#include "saca/base/config/config.h"
 
 namespace saca::runtime {
 namespace {
@@ -28,25 +28,27 @@ Result<ThinkingCosts> read_thinking_costs(std::string_view text, std::string_vie
   return costs;
 }
 
-Result<std::vector<reason::Reply>> ChargedModel::reply_to(
+Result<std::vector<language_model::Reply>> ChargedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const reason::Progress&)>& progress, const reason::AskLimits& limits) {
+    const std::function<void(const language_model::Progress&)>& progress,
+    const language_model::AskLimits& limits) {
   auto replies = model_.ask(
-      scenes, real_.now() + patience, [](const reason::Progress&) {}, limits);
+      scenes, real_.now() + patience, [](const language_model::Progress&) {}, limits);
   if (!replies.has_value()) {
     return replies;
   }
   int prompt_tokens = 0;
-  for (const reason::Reply& reply : replies.value()) {
+  for (const language_model::Reply& reply : replies.value()) {
     prompt_tokens += reply.prompt_tokens;
   }
   const Clock::Time read = clock_.now() + from_seconds(costs_.prompt_token * prompt_tokens);
-  std::vector<std::pair<std::size_t, reason::Answer>> answers;  // of all prompts, by their dates
-  std::vector<reason::Reply> in_time;
+  std::vector<std::pair<std::size_t, language_model::Answer>>
+      answers;  // of all prompts, by their dates
+  std::vector<language_model::Reply> in_time;
   for (std::size_t i = 0; i < replies.value().size(); ++i) {
-    reason::Reply reply = replies.value()[i];
-    const auto late = [&](reason::Answer& answer) {
-      const bool first = answer.kind == reason::Answer::Kind::first;
+    language_model::Reply reply = replies.value()[i];
+    const auto late = [&](language_model::Answer& answer) {
+      const bool first = answer.kind == language_model::Answer::Kind::first;
       answer.time =
           read + (first ? Clock::Time(0) : from_seconds(costs_.reply_token * reply.reply_tokens));
       return answer.time > deadline;
@@ -58,7 +60,7 @@ Result<std::vector<reason::Reply>> ChargedModel::reply_to(
     if (!reply.reasoning.empty()) {
       progress({.prompt = i, .text = reply.reasoning});
     }
-    for (const reason::Answer& answer : reply.answers) {
+    for (const language_model::Answer& answer : reply.answers) {
       answers.emplace_back(i, answer);
     }
     in_time.push_back(std::move(reply));

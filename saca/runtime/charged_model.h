@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "saca/core/clock.h"
-#include "saca/core/result.h"
-#include "saca/reason/language_model.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/result.h"
+#include "saca/thinking/language_model/language_model.h"
 
 namespace saca::runtime {
 
@@ -26,23 +26,23 @@ struct ThinkingCosts {
 /// answer is dated by the tokens before it. The same model gives the same dates on any machine. An
 /// answer that would have come after the deadline is dropped, and the text before it, as if they
 /// had not come.
-class ChargedModel final : public reason::LanguageModel {
+class ChargedModel final : public language_model::LanguageModel {
  public:
   /// @param model  the one that thinks, with deadlines on `real`
   /// @param clock  simulated; its time is the start of an ask, and is not moved
-  ChargedModel(reason::LanguageModel& model, const ThinkingCosts& costs, const Clock& real,
+  ChargedModel(language_model::LanguageModel& model, const ThinkingCosts& costs, const Clock& real,
                const Clock& clock)
       : model_(model), costs_(costs), real_(real), clock_(clock) {}
 
   [[nodiscard]] std::string description() const override { return model_.description(); }
 
  private:
-  [[nodiscard]] Result<std::vector<reason::Reply>> reply_to(
+  [[nodiscard]] Result<std::vector<language_model::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const reason::Progress&)>& progress,
-      const reason::AskLimits& limits) override;
+      const std::function<void(const language_model::Progress&)>& progress,
+      const language_model::AskLimits& limits) override;
 
-  reason::LanguageModel& model_;
+  language_model::LanguageModel& model_;
   ThinkingCosts costs_;
   const Clock& real_;
   const Clock& clock_;

@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "saca/reason/scripted_model.h"
+#include "saca/thinking/language_model/scripted_model.h"
 
 namespace saca::runtime::charged_model_test {
 namespace {
 
-using reason::Answer;
+using language_model::Answer;
 using testing::HasSubstr;
 
-const reason::ScriptedReply two_answers{
+const language_model::ScriptedReply two_answers{
     .lines = {{.text = "so", .answer = Answer::Kind::first}, {.answer = Answer::Kind::ended}},
     .prompt_tokens = 100,
     .reply_tokens = 40};
@@ -22,7 +22,7 @@ TEST(ChargedModel, DatesAnswersByTheirTokens) {
   ManualClock simulated;
   simulated.advance(std::chrono::seconds(2));
   ManualClock real;
-  reason::ScriptedModel inner(two_answers, real);
+  language_model::ScriptedModel inner(two_answers, real);
   ChargedModel model(inner, costs, real, simulated);
   std::vector<double> dates;
   const auto replies = model.ask({"a", "b"}, std::chrono::seconds(9), [&](const auto& news) {
@@ -38,7 +38,7 @@ TEST(ChargedModel, DatesAnswersByTheirTokens) {
 TEST(ChargedModel, AnAnswerAfterTheDeadlineDidNotCome) {
   const ManualClock simulated;
   ManualClock real;
-  reason::ScriptedModel inner(two_answers, real);
+  language_model::ScriptedModel inner(two_answers, real);
   ChargedModel model(inner, costs, real, simulated);
   const auto silent = [](const auto&) {};
   const auto first_only = model.ask({"a"}, std::chrono::milliseconds(200), silent);

@@ -4,7 +4,7 @@
 
 namespace saca::runtime {
 
-void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& scene,
+void ChargedThinking::think(arbitration::ThinkingPlane& plane, const world::Scene& scene,
                             const intent::Beliefs& beliefs) {
   if (scene.time < free_at_) {
     return;
@@ -16,13 +16,13 @@ void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& sc
   }
 }
 
-void ChargedThinking::publish(const decide::PlanCache& plans, double ready) {
+void ChargedThinking::publish(const reflex::PlanCache& plans, double ready) {
   waiting_.emplace_back(ready, plans);
   busy_until(ready);
 }
 
-std::optional<decide::PlanCache> ChargedThinking::take(double now) {
-  std::optional<decide::PlanCache> newest;
+std::optional<reflex::PlanCache> ChargedThinking::take(double now) {
+  std::optional<reflex::PlanCache> newest;
   while (!waiting_.empty() && waiting_.front().first <= now) {
     newest = waiting_.front().second;
     waiting_.pop_front();

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "saca/core/clock.h"
-#include "saca/decide/plan_cache.h"
-#include "saca/decide/thinking_plane.h"
-#include "saca/intent/observer.h"
+#include "saca/base/core/clock.h"
+#include "saca/onboard/reflex/plan_cache.h"
+#include "saca/thinking/arbitration/thinking_plane.h"
+#include "saca/thinking/intent/observer.h"
 
 namespace saca::runtime {
 
@@ -22,11 +22,11 @@ class ChargedThinking {
   ChargedThinking(double round, ManualClock& clock) : round_(round), clock_(clock) {}
 
   /// Thinks about the scene unless the last round is still being charged.
-  void think(decide::ThinkingPlane& plane, const world::Scene& scene,
+  void think(arbitration::ThinkingPlane& plane, const world::Scene& scene,
              const intent::Beliefs& beliefs);
 
-  /// For `decide::ThinkingOutput`: plans that are ready at `ready` [s].
-  void publish(const decide::PlanCache& plans, double ready);
+  /// For `arbitration::ThinkingOutput`: plans that are ready at `ready` [s].
+  void publish(const reflex::PlanCache& plans, double ready);
 
   /// Something comes of the round at `time` [s], an answer whatever it is worth: until then nothing
   /// else is thought about.
@@ -43,14 +43,14 @@ class ChargedThinking {
   }
 
   /// The newest plans that are ready at `now` [s] and have not been taken.
-  [[nodiscard]] std::optional<decide::PlanCache> take(double now);
+  [[nodiscard]] std::optional<reflex::PlanCache> take(double now);
 
  private:
   static constexpr double never = -std::numeric_limits<double>::infinity();
 
   double round_;
   ManualClock& clock_;
-  std::deque<std::pair<double, decide::PlanCache>> waiting_;
+  std::deque<std::pair<double, reflex::PlanCache>> waiting_;
   double free_at_ = never;
 };
 

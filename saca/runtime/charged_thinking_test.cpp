@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/default_car.h"
+#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/runtime/wreck_for_test.h"
+#include "saca/thinking/intent/shipped_model.h"
 
 namespace saca::runtime::charged_thinking_test {
 namespace {
 
-decide::PlanCache plans(std::size_t count) {
-  decide::PlanCache cache;
+reflex::PlanCache plans(std::size_t count) {
+  reflex::PlanCache cache;
   while (cache.size() < count) {
     cache.push_back({});
   }
@@ -32,14 +32,15 @@ TEST(ChargedThinking, HoldsPlansBackUntilTheyAreReady) {
 
 TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
   const auto car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   ManualClock clock;
   ChargedThinking thinking(0.5, clock);
-  decide::ThinkingPlane plane({.forecast = {.car = &car, .harm = &harm}, .clock = &clock}, {},
-                              {.publish = [&](const decide::PlanCache& cache,
-                                              double ready) { thinking.publish(cache, ready); },
-                               .event = [](const decide::Event&) {},
-                               .reasoning = [](std::int32_t, std::string_view) {}});
+  arbitration::ThinkingPlane plane(
+      {.forecast = {.car = &car, .harm = &harm}, .clock = &clock}, {},
+      {.publish = [&](const reflex::PlanCache& cache,
+                      double ready) { thinking.publish(cache, ready); },
+       .event = [](const arbitration::Event&) {},
+       .reasoning = [](std::int32_t, std::string_view) {}});
   world::Scene scene = wreck_ahead(car, 80.0);
 
   scene.time = 1.0;

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <utility>
 
-#include "saca/core/names.h"
+#include "saca/base/core/names.h"
 
 namespace saca::runtime {
 namespace {
 
-using decide::Event;
-using decide::EventKind;
-using decide::Plane;
+using arbitration::Event;
+using arbitration::EventKind;
+using arbitration::Plane;
 
 constexpr std::array<std::string_view, 5> remark_texts{
     "the encounter is over: the stack drives",
@@ -32,12 +32,12 @@ EventKind kind_of(Remark remark) {
 
 EventLog::EventLog(std::size_t capacity) : notices_(capacity), thoughts_(capacity) {}
 
-void EventLog::triggered(const decide::Decision& decision, const world::Actor& by,
+void EventLog::triggered(const reflex::Decision& decision, const world::Actor& by,
                          double left) noexcept {
   notices_.push({decision.time, TriggerEntry{decision, by, left}});
 }
 
-void EventLog::switched(double time, const decide::Switch& change) noexcept {
+void EventLog::switched(double time, const reflex::Switch& change) noexcept {
   notices_.push({time, change});
 }
 
@@ -76,22 +76,24 @@ void EventLog::add_events_of(const Notice& notice) {
   };
   if (const auto* const remark = std::get_if<Remark>(&notice.what)) {
     add(kind_of(*remark), std::string(name_of(*remark, remark_texts)));
-  } else if (const auto* const change = std::get_if<decide::Switch>(&notice.what)) {
-    add(EventKind::switched, fmt::format("{}: {}", name(change->reason), switch_text(*change)));
+  } else if (const auto* const change = std::get_if<reflex::Switch>(&notice.what)) {
+    add(EventKind::switched,
+        fmt::format("{}: {}", name(change->reason), arbitration::switch_text(*change)));
   } else {
     const auto& trigger = std::get<TriggerEntry>(notice.what);
     add(EventKind::trigger,
-        decide::trigger_text(trigger.by, trigger.left, trigger.decision.waiting_cost));
+        arbitration::trigger_text(trigger.by, trigger.left, trigger.decision.waiting_cost));
     add(trigger.decision.refused ? EventKind::fault : EventKind::match,
-        decision_text(trigger.decision));
-    add(EventKind::execute, execution_text(trigger.decision.plan, trigger.decision.source));
+        arbitration::decision_text(trigger.decision));
+    add(EventKind::execute,
+        arbitration::execution_text(trigger.decision.plan, trigger.decision.source));
   }
 }
 
 std::optional<Event> EventLog::rejected(Plane plane, std::size_t count, std::size_t& told) const {
   const std::size_t num_new = count - std::exchange(told, count);
   return num_new == 0 ? std::nullopt
-                      : std::optional(decide::events_not_told(time_, plane, num_new));
+                      : std::optional(arbitration::events_not_told(time_, plane, num_new));
 }
 
 }  // namespace saca::runtime

@@ -7,11 +7,11 @@
 #include <type_traits>
 #include <variant>
 
-#include "saca/core/spsc_queue.h"
-#include "saca/decide/event.h"
-#include "saca/decide/reflex_plane.h"
-#include "saca/manoeuvre/plan.h"
-#include "saca/world/scene.h"
+#include "saca/base/core/spsc_queue.h"
+#include "saca/base/world/scene.h"
+#include "saca/onboard/manoeuvre/plan.h"
+#include "saca/onboard/reflex/reflex_plane.h"
+#include "saca/thinking/arbitration/event.h"
 
 namespace saca::runtime {
 
@@ -38,39 +38,40 @@ class EventLog {
 
   /// @param by    who set it off
   /// @param left  to the conflict [s]
-  void triggered(const decide::Decision& decision, const world::Actor& by, double left) noexcept;
+  void triggered(const reflex::Decision& decision, const world::Actor& by, double left) noexcept;
   /// @param time  [s], in the scene's time
-  void switched(double time, const decide::Switch& change) noexcept;
+  void switched(double time, const reflex::Switch& change) noexcept;
   void remark(double time, Remark remark) noexcept;
 
   // The thinking thread. It does not wait.
-  void thought(decide::Event event) noexcept;
+  void thought(arbitration::Event event) noexcept;
 
   /// The reading thread: the oldest event of the driving thread, else of the thinking one, that has
   /// not been read; nullopt: there is none now.
-  [[nodiscard]] std::optional<decide::Event> next();
+  [[nodiscard]] std::optional<arbitration::Event> next();
 
  private:
   struct TriggerEntry {
-    decide::Decision decision;
+    reflex::Decision decision;
     world::Actor by;
     double left = 0.0;  ///< [s]
   };
   struct Notice {
     double time = 0.0;  ///< [s]
-    std::variant<Remark, TriggerEntry, decide::Switch> what;
+    std::variant<Remark, TriggerEntry, reflex::Switch> what;
   };
   static_assert(std::is_trivially_copyable_v<Notice>);
 
   void add_events_of(const Notice& notice);
-  [[nodiscard]] std::optional<decide::Event> rejected(decide::Plane plane, std::size_t count,
-                                                      std::size_t& told) const;
+  [[nodiscard]] std::optional<arbitration::Event> rejected(arbitration::Plane plane,
+                                                           std::size_t count,
+                                                           std::size_t& told) const;
 
   SpscQueue<Notice> notices_;
-  SpscQueue<decide::Event> thoughts_;
+  SpscQueue<arbitration::Event> thoughts_;
   // The reading thread's own:
-  std::deque<decide::Event> read_;  ///< of the last notice
-  double time_ = 0.0;               ///< of the last event [s]
+  std::deque<arbitration::Event> read_;  ///< of the last notice
+  double time_ = 0.0;                    ///< of the last event [s]
   std::size_t notices_rejected_told_ = 0;
   std::size_t thoughts_rejected_told_ = 0;
 };

@@ -13,9 +13,9 @@
 namespace saca::runtime::event_log_test {
 namespace {
 
-using decide::Event;
-using decide::EventKind;
-using decide::Plane;
+using arbitration::Event;
+using arbitration::EventKind;
+using arbitration::Plane;
 using manoeuvre::PolicyId;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -24,8 +24,8 @@ Event thought(double time) {
   return {time, Plane::thinking, EventKind::memory, "memory is empty"};
 }
 
-decide::Decision braking(double time) {
-  return {.plan = manoeuvre::full_braking, .source = decide::Source::arbiter, .time = time};
+reflex::Decision braking(double time) {
+  return {.plan = manoeuvre::full_braking, .source = reflex::Source::arbiter, .time = time};
 }
 
 std::vector<Event> all(EventLog& log) {
@@ -64,8 +64,8 @@ TEST(EventLog, SaysInWordsWhatWasDecided) {
 
 TEST(EventLog, SaysWhatCannotBeDriven) {
   EventLog log(4);
-  decide::Decision drift = braking(2.5);
-  drift.source = decide::Source::fallback;
+  reflex::Decision drift = braking(2.5);
+  drift.source = reflex::Source::fallback;
   drift.refused = {{PolicyId::t_drift_left, std::nullopt}, manoeuvre::Refusal::slippery};
   log.triggered(drift, test::car(3, {30.0, 0.0}), 1.29);
   const std::vector<Event> events = all(log);
@@ -77,7 +77,7 @@ TEST(EventLog, SaysWhatCannotBeDriven) {
 TEST(EventLog, SaysWhatCameAfterIt) {
   EventLog log(4);
   log.switched(3.0, {.plan = {PolicyId::aes_left, std::nullopt},
-                     .reason = decide::SwitchReason::better_by_far,
+                     .reason = reflex::SwitchReason::better_by_far,
                      .harm = 0.0,
                      .harm_before = 0.2});
   log.remark(4.0, Remark::degraded);
@@ -108,7 +108,7 @@ TEST(EventLog, TellsOnceHowManyDidNotFit) {
 
 TEST(EventLog, TheDrivingThreadAllocatesNothing) {
   EventLog log(2);
-  const decide::Decision decision = braking(2.5);
+  const reflex::Decision decision = braking(2.5);
   const world::Actor actor = test::car(3, {30.0, 0.0});
   const std::size_t before = num_allocations;
   for (int i = 0; i < 3; ++i) {

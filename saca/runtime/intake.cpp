@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saca/world/time_to_conflict.h"
+#include "saca/base/world/time_to_conflict.h"
 
 namespace saca::runtime {
 namespace {

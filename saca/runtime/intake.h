@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "saca/world/scene.h"
+#include "saca/base/world/scene.h"
 
 namespace saca::runtime {
 

@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <string>
 
-#include "saca/core/clock.h"
-#include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/default_car.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/base/core/clock.h"
+#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/avoider.h"
+#include "saca/thinking/intent/shipped_model.h"
 #include "tests/support/scenes.h"
 
 namespace saca::long_drive_test {
@@ -73,7 +73,7 @@ class Cruise {
 
   SteadyClock clock_;
   manoeuvre::Car car_ = manoeuvre::default_car();
-  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
   Avoider avoider_{{.planes = {.forecast = {&car_, &harm_}, .clock = &clock_},
                     .intent = &intent::shipped_model()}};
   world::Scene scene_ = test::ego_at(cruising_speed, manoeuvre::footprint(car_));

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "saca/core/names.h"
-#include "saca/preview/previewed_threat.h"
+#include "saca/base/core/names.h"
+#include "saca/thinking/preview/previewed_threat.h"
 
 namespace saca::runtime {
 namespace {
@@ -16,7 +16,7 @@ constexpr Clock::Time breath = std::chrono::milliseconds(200);  // plans change 
 
 PlanesSetup with_judge(PlanesSetup setup) {
   if (!setup.judge) {
-    setup.judge = decide::judge_with(setup.forecast);
+    setup.judge = arbitration::judge_with(setup.forecast);
   }
   return setup;
 }
@@ -27,9 +27,9 @@ std::string_view name(Pace pace) {
   return name_of(pace, pace_names);
 }
 
-decide::ReflexTools reflex_tools(const PlanesSetup& setup) {
+reflex::ReflexTools reflex_tools(const PlanesSetup& setup) {
   const preview::ForecastTools& forecast = setup.forecast;
-  decide::ReflexTools tools{.thresholds = setup.thresholds,
+  reflex::ReflexTools tools{.thresholds = setup.thresholds,
                             .car = forecast.car,
                             .atlas = {},
                             .forced = setup.forced,
@@ -51,7 +51,7 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
       charged_forecasts_(
           setup_.judge,
           [cost = setup.costs.verdict, cues = setup.forecast.cues](const TimedScene& one) {
-            return cost * decide::judgements_of(one.scene, one.beliefs, cues);
+            return cost * arbitration::judgements_of(one.scene, one.beliefs, cues);
           }),
       reflex_(reflex_tools(setup)),
       tape_(setup.tape_size),
@@ -69,13 +69,13 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
   }
 }
 
-decide::ThinkingTools Planes::tools() {
-  decide::ThinkingTools tools{.forecast = setup_.forecast,
-                              .memory = setup_.memory,
-                              .model = setup_.model,
-                              .clock = setup_.clock,
-                              .guard = setup_.guard,
-                              .asking = setup_.asking};
+arbitration::ThinkingTools Planes::tools() {
+  arbitration::ThinkingTools tools{.forecast = setup_.forecast,
+                                   .memory = setup_.memory,
+                                   .model = setup_.model,
+                                   .clock = setup_.clock,
+                                   .guard = setup_.guard,
+                                   .asking = setup_.asking};
   if (!real()) {
     tools.model = charged_model_.get();
     tools.clock = &simulated_clock_;
@@ -83,13 +83,13 @@ decide::ThinkingTools Planes::tools() {
   return tools;
 }
 
-decide::ThinkingOutput Planes::output() {
+arbitration::ThinkingOutput Planes::output() {
   return {.publish =
-              [this](const decide::PlanCache& plans, double ready) {
+              [this](const reflex::PlanCache& plans, double ready) {
                 real() ? plans_.publish({plans, thought_of_}) : charged_.publish(plans, ready);
               },
           .event =
-              [this](const decide::Event& event) {
+              [this](const arbitration::Event& event) {
                 if (!real()) {
                   charged_.busy_until(event.time);
                 }
@@ -114,7 +114,7 @@ void Planes::begin_entry(const world::Scene& scene, const intent::Beliefs& belie
   entry_->decision.reset();
 }
 
-decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& beliefs,
+reflex::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& beliefs,
                             Clock::Time at, bool finished) {
   begin_entry(scene, beliefs);
   const bool judges = reflex_.supervises();
@@ -140,7 +140,7 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
   }
   const Clock::Time before = setup_.clock->now();
   hand_over(scene, finished);
-  const decide::Reflex reflex = reflex_.step(scene, finished);
+  const reflex::Reflex reflex = reflex_.step(scene, finished);
   if (reflex_times_.size() < reflex_times_.capacity()) {
     reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
   }
@@ -204,12 +204,12 @@ void Planes::judge(const TimedScene& newest) {
 
 void Planes::think(const TimedScene& newest, const std::stop_token& stop) {
   think_of(newest.encounter);
-  const auto newer = [&]() -> std::optional<decide::NewerScene> {
+  const auto newer = [&]() -> std::optional<arbitration::NewerScene> {
     if (!scenes_.take(*newer_)) {
       return std::nullopt;
     }
-    return decide::NewerScene{newer_->scene, newer_->beliefs,
-                              newer_->encounter != newest.encounter};
+    return arbitration::NewerScene{newer_->scene, newer_->beliefs,
+                                   newer_->encounter != newest.encounter};
   };
   plane_.think(newest.scene, newest.beliefs, newest.at, stop, newer);
 }
@@ -231,14 +231,14 @@ void Planes::hand_over_thoughts() {
   }
 }
 
-void Planes::keep(const decide::Event& event) {
+void Planes::keep(const arbitration::Event& event) {
   if (events_.size() >= setup_.most_events) {
     const std::size_t before = events_left_out_ == 0 ? 0 : 1;  // that which says so
     const std::size_t dropped = std::max<std::size_t>(2, events_.size() / 2);
     events_left_out_ += dropped - before;
     events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(dropped) - 1);
     events_.front() = {
-        event.time, decide::Plane::thinking, decide::EventKind::fault,
+        event.time, arbitration::Plane::thinking, arbitration::EventKind::fault,
         std::to_string(events_left_out_) + " earlier events of this plane are left out"};
     events_.front().time = events_.size() > 1 ? events_[1].time : event.time;
   }

@@ -9,17 +9,17 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/core/clock.h"
-#include "saca/core/latest_slot.h"
-#include "saca/decide/event.h"
-#include "saca/decide/forecaster.h"
-#include "saca/decide/reflex_plane.h"
-#include "saca/decide/thinking_plane.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/latest_slot.h"
+#include "saca/onboard/reflex/reflex_plane.h"
 #include "saca/runtime/charged_forecasts.h"
 #include "saca/runtime/charged_model.h"
 #include "saca/runtime/charged_thinking.h"
 #include "saca/runtime/tape.h"
 #include "saca/runtime/work_thread.h"
+#include "saca/thinking/arbitration/event.h"
+#include "saca/thinking/arbitration/forecaster.h"
+#include "saca/thinking/arbitration/thinking_plane.h"
 
 namespace saca::runtime {
 
@@ -33,15 +33,15 @@ enum class Pace : std::uint8_t {
 /// What both planes are made of. What it points to outlives them.
 struct PlanesSetup {
   preview::ForecastTools forecast;
-  preview::Thresholds thresholds;
+  reflex::Thresholds thresholds;
   Pace pace = Pace::lockstep;
-  ThinkingCosts costs;                     ///< for lockstep
-  reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
-  memory::Store* memory = nullptr;         ///< nullptr: without
-  decide::Guard guard = decide::Guard::never_worse_than_braking;
-  decide::Asking asking;
-  decide::Judge judge;  ///< makes the verdicts, on a thread of its own at pace `real`; empty: a
-                        ///< decide::Forecaster
+  ThinkingCosts costs;                             ///< for lockstep
+  language_model::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
+  memory::Store* memory = nullptr;                 ///< nullptr: without
+  reflex::Guard guard = reflex::Guard::never_worse_than_braking;
+  arbitration::Asking asking;
+  arbitration::Judge judge;  ///< makes the verdicts, on a thread of its own at pace `real`; empty:
+                             ///< a arbitration::Forecaster
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
   Clock* clock = nullptr;                 ///< real time
   std::size_t tape_size = 0;              ///< memory of the tape [byte], see Tape; 0: no tape
@@ -49,7 +49,7 @@ struct PlanesSetup {
 };
 
 /// What the reflex plane of this setup decides with.
-[[nodiscard]] decide::ReflexTools reflex_tools(const PlanesSetup& setup);
+[[nodiscard]] reflex::ReflexTools reflex_tools(const PlanesSetup& setup);
 
 /// How long the reflex plane took.
 struct ReflexTiming {
@@ -63,16 +63,16 @@ struct ReflexTiming {
 class Planes {
  public:
   struct Listener {
-    std::function<void(const decide::Event&)> event = [](const decide::Event&) {};
+    std::function<void(const arbitration::Event&)> event = [](const arbitration::Event&) {};
     std::function<void(std::int32_t preview, std::string_view text)> reasoning =
         [](std::int32_t, std::string_view) {};
     /// What was thought in one encounter, and the events of it (`thinking_events`), before it is
     /// forgotten; of the last one in `finish`.
     /// `deadline_misses`: how often the model gave no answer in time
-    std::function<void(std::uint32_t encounter, const std::vector<decide::Preview>&,
-                       const std::vector<decide::Event>&, int deadline_misses)>
-        thought = [](std::uint32_t, const std::vector<decide::Preview>&,
-                     const std::vector<decide::Event>&, int) {};
+    std::function<void(std::uint32_t encounter, const std::vector<arbitration::Preview>&,
+                       const std::vector<arbitration::Event>&, int deadline_misses)>
+        thought = [](std::uint32_t, const std::vector<arbitration::Preview>&,
+                     const std::vector<arbitration::Event>&, int) {};
   };
 
   /// @param listener  hears the thinking plane; at pace `real` on its thread, which waits for it
@@ -86,10 +86,10 @@ class Planes {
   /// @param beliefs  one per actor of the scene
   /// @param at       when, on the clock, the scene was true; of no account in lockstep
   /// @param finished  what is carried out has reached its safe end
-  decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
+  reflex::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
                       bool finished);
 
-  [[nodiscard]] const std::optional<decide::Decision>& decision() const {
+  [[nodiscard]] const std::optional<reflex::Decision>& decision() const {
     return reflex_.decision();
   }
 
@@ -117,20 +117,22 @@ class Planes {
   // Once finished, or in lockstep:
   /// Of this encounter; where there were more than `most_events`, the newer ones, and first how
   /// many are left out.
-  [[nodiscard]] const std::vector<decide::Event>& thinking_events() const { return events_; }
-  [[nodiscard]] const std::vector<decide::Preview>& previews() const { return plane_.previews(); }
+  [[nodiscard]] const std::vector<arbitration::Event>& thinking_events() const { return events_; }
+  [[nodiscard]] const std::vector<arbitration::Preview>& previews() const {
+    return plane_.previews();
+  }
   [[nodiscard]] ReflexTiming timing() const;
 
  private:
   [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
-  [[nodiscard]] decide::ThinkingTools tools();
-  [[nodiscard]] decide::ThinkingOutput output();
+  [[nodiscard]] arbitration::ThinkingTools tools();
+  [[nodiscard]] arbitration::ThinkingOutput output();
   void begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs);
   void hand_over(const world::Scene& scene, bool finished);
   void think_of(std::uint32_t encounter);
   void think(const TimedScene& newest, const std::stop_token& stop);
   void hand_over_thoughts();
-  void keep(const decide::Event& event);
+  void keep(const arbitration::Event& event);
   /// Does somebody threaten within T2, or is a plan under way?
   [[nodiscard]] bool is_to_be_judged(const TimedScene& newest) const;
   void judge(const TimedScene& newest);
@@ -141,18 +143,18 @@ class Planes {
   std::unique_ptr<ChargedModel> charged_model_;
   ChargedThinking charged_;
   ChargedForecasts charged_forecasts_;
-  decide::ReflexPlane reflex_;
+  reflex::ReflexPlane reflex_;
   LatestSlot<TimedScene> scenes_;
   LatestSlot<TimedScene> scenes_to_judge_;
   LatestSlot<NumberedVerdict> verdicts_;
   /// Plans, and for which encounter they were thought of.
   struct NumberedPlans {
-    decide::PlanCache plans;
+    reflex::PlanCache plans;
     std::uint32_t encounter = 0;
   };
   LatestSlot<NumberedPlans> plans_;
   NumberedPlans newest_plans_;
-  std::vector<decide::Event> events_;
+  std::vector<arbitration::Event> events_;
   std::size_t events_left_out_ = 0;
   std::vector<double> reflex_times_;  ///< of the first `looks` steps
   Tape tape_;
@@ -165,7 +167,7 @@ class Planes {
   std::uint32_t thought_of_ = 0;   ///< the encounter that the thinking plane was last asked about;
                                    ///< of the thread that thinks
   std::unique_ptr<TimedScene> newer_ = std::make_unique<TimedScene>();  ///< of the same thread
-  decide::ThinkingPlane plane_;
+  arbitration::ThinkingPlane plane_;
   std::unique_ptr<WorkThread> thinking_;     ///< at pace `real`
   std::unique_ptr<WorkThread> forecasting_;  ///< likewise
 };

@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/atlas_for_test.h"
-#include "saca/manoeuvre/default_car.h"
-#include "saca/reason/scripted_model.h"
+#include "saca/onboard/atlas/atlas_for_test.h"
+#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/thinking/intent/shipped_model.h"
+#include "saca/thinking/language_model/scripted_model.h"
 #include "tests/support/meeting_clock.h"
 #include "tests/support/scenes.h"
 
@@ -34,7 +34,7 @@ class PlanesTest : public testing::Test {
     scene.actors.push_back(test::car(1, {90.0, 0.0}));
     return scene;
   }
-  [[nodiscard]] PlanesSetup setup(reason::LanguageModel* model, decide::Guard guard) {
+  [[nodiscard]] PlanesSetup setup(language_model::LanguageModel* model, reflex::Guard guard) {
     return {.forecast = {&car_, &harm_},
             .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
             .model = model,
@@ -42,15 +42,16 @@ class PlanesTest : public testing::Test {
             .clock = &clock_};
   }
   /// The decision at the trigger.
-  [[nodiscard]] decide::Decision decided(reason::LanguageModel* model, decide::Guard guard) {
+  [[nodiscard]] reflex::Decision decided(language_model::LanguageModel* model,
+                                         reflex::Guard guard) {
     return decided(setup(model, guard));
   }
-  [[nodiscard]] static decide::Decision decided(const PlanesSetup& setup) {
+  [[nodiscard]] static reflex::Decision decided(const PlanesSetup& setup) {
     Planes planes(setup, {}, 500);
     return met(planes);
   }
   /// Drives up to the trigger, the scenes' time beginning at `start` [s].
-  static decide::Decision met(Planes& planes, double start = 0.0) {
+  static reflex::Decision met(Planes& planes, double start = 0.0) {
     for (int k = 0; k < 450; ++k) {
       world::Scene scene = at(0.01 * k);
       scene.time += start;
@@ -64,70 +65,72 @@ class PlanesTest : public testing::Test {
   /// The texts of all events of the thinking plane.
   static std::string thoughts(const Planes& planes) {
     std::string texts;
-    for (const decide::Event& event : planes.thinking_events()) {
+    for (const arbitration::Event& event : planes.thinking_events()) {
       texts += event.text + "\n";
     }
     return texts;
   }
-  static reason::ScriptedReply says(PolicyId policy) {
-    return {.lines = {{.text = "because", .answer = reason::Answer::Kind::first, .policy = policy}},
+  static language_model::ScriptedReply says(PolicyId policy) {
+    return {.lines = {{.text = "because",
+                       .answer = language_model::Answer::Kind::first,
+                       .policy = policy}},
             .prompt_tokens = 10,
             .reply_tokens = 5};
   }
 
   SteadyClock clock_;
   manoeuvre::Car car_ = manoeuvre::default_car();
-  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
 };
 
 // Braking needs 42.7 m and hits the wreck; both other lanes are free.
 TEST_F(PlanesTest, WithoutModelAndMemoryTheVerdictDecides) {
-  const auto decision = decided(nullptr, decide::Guard::never_worse_than_braking);
+  const auto decision = decided(nullptr, reflex::Guard::never_worse_than_braking);
   EXPECT_TRUE(manoeuvre::changes_lane(decision.plan.policy)) << name(decision.plan.policy);
-  EXPECT_EQ(decision.source, decide::Source::arbiter);
+  EXPECT_EQ(decision.source, reflex::Source::arbiter);
   ASSERT_TRUE(decision.verdict.has_value());
-  EXPECT_LE(decision.time - decision.verdict->time, decide::verdict_expiry);
+  EXPECT_LE(decision.time - decision.verdict->time, reflex::verdict_expiry);
   EXPECT_FALSE(decision.by_atlas);
 }
 
 TEST_F(PlanesTest, ByThePapersRuleBrakingIsAllThereIsWithoutModelAndMemory) {
-  const auto decision = decided(nullptr, decide::Guard::none);
+  const auto decision = decided(nullptr, reflex::Guard::none);
   EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
-  EXPECT_EQ(decision.source, decide::Source::fallback);
+  EXPECT_EQ(decision.source, reflex::Source::fallback);
 }
 
 TEST_F(PlanesTest, AGoodAnswerIsCarriedOutUnderEitherRule) {
-  for (const auto guard : {decide::Guard::never_worse_than_braking, decide::Guard::none}) {
-    reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+  for (const auto guard : {reflex::Guard::never_worse_than_braking, reflex::Guard::none}) {
+    language_model::ScriptedModel model(says(PolicyId::aes_left), clock_);
     const auto decision = decided(&model, guard);
     EXPECT_EQ(decision.plan.policy, PolicyId::aes_left);
-    EXPECT_EQ(decision.source, decide::Source::model);
+    EXPECT_EQ(decision.source, reflex::Source::model);
   }
 }
 
 // Doing nothing drives into the wreck at 20 m/s; the paper's algorithm caches what the model says.
 TEST_F(PlanesTest, ABadAnswerIsCarriedOutByThePapersRuleOnly) {
-  reason::ScriptedModel guarded(says(PolicyId::no_intervention), clock_);
-  EXPECT_NE(decided(&guarded, decide::Guard::never_worse_than_braking).plan.policy,
+  language_model::ScriptedModel guarded(says(PolicyId::no_intervention), clock_);
+  EXPECT_NE(decided(&guarded, reflex::Guard::never_worse_than_braking).plan.policy,
             PolicyId::no_intervention);
-  reason::ScriptedModel paper(says(PolicyId::no_intervention), clock_);
-  const auto decision = decided(&paper, decide::Guard::none);
+  language_model::ScriptedModel paper(says(PolicyId::no_intervention), clock_);
+  const auto decision = decided(&paper, reflex::Guard::none);
   EXPECT_EQ(decision.plan.policy, PolicyId::no_intervention);
-  EXPECT_EQ(decision.source, decide::Source::model);
+  EXPECT_EQ(decision.source, reflex::Source::model);
 }
 
 // A verdict that takes a second is of a scene that is gone: nobody waits for it.
 TEST_F(PlanesTest, ASlowForecasterIsNotWaitedFor) {
-  PlanesSetup slow = setup(nullptr, decide::Guard::never_worse_than_braking);
+  PlanesSetup slow = setup(nullptr, reflex::Guard::never_worse_than_braking);
   slow.costs.verdict = 1.0;
   const auto decision = decided(slow);
   EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
-  EXPECT_EQ(decision.source, decide::Source::fallback);
-  EXPECT_EQ(decision.time, decided(nullptr, decide::Guard::never_worse_than_braking).time);
+  EXPECT_EQ(decision.source, reflex::Source::fallback);
+  EXPECT_EQ(decision.time, decided(nullptr, reflex::Guard::never_worse_than_braking).time);
 }
 
 TEST_F(PlanesTest, WhatHasBegunAnewDecidesAgain) {
-  Planes planes(setup(nullptr, decide::Guard::never_worse_than_braking), {}, 1'000);
+  Planes planes(setup(nullptr, reflex::Guard::never_worse_than_braking), {}, 1'000);
   int decisions = 0;
   for (int encounter = 0; encounter < 2; ++encounter) {
     for (int k = 0; k < 330; ++k) {
@@ -145,14 +148,14 @@ TEST_F(PlanesTest, WhatHasBegunAnewDecidesAgain) {
 
 struct ModelFault {
   const char* name;
-  reason::ScriptedReply reply;
+  language_model::ScriptedReply reply;
   const char* told;
 };
 
 // Whatever the model does, the verdict decides as without it, what happened is told, and in the
 // next encounter, in which the model answers, it is heard.
 TEST_F(PlanesTest, AModelThatFailsIsToldAndHeardTheNextTime) {
-  const auto without = decided(nullptr, decide::Guard::never_worse_than_braking);
+  const auto without = decided(nullptr, reflex::Guard::never_worse_than_braking);
   const ModelFault faults[] = {
       {"hangs", {}, "model: script: no answer in time"},
       {"dies",
@@ -163,7 +166,7 @@ TEST_F(PlanesTest, AModelThatFailsIsToldAndHeardTheNextTime) {
        "model: want a policy from 0 to 7, got 9"},
       {"lies",
        {.lines = {{.text = "1. AES-R is clear by 17.5 m.",
-                   .answer = reason::Answer::Kind::ended,
+                   .answer = language_model::Answer::Kind::ended,
                    .policy = PolicyId::aes_right}},
         .reply_tokens = 9},
        "truth check failed"},
@@ -173,19 +176,19 @@ TEST_F(PlanesTest, AModelThatFailsIsToldAndHeardTheNextTime) {
   for (const ModelFault& fault : faults) {
     SCOPED_TRACE(fault.name);
     bool well = false;
-    reason::ScriptedModel model(
+    language_model::ScriptedModel model(
         [&](const std::string&) { return well ? says(PolicyId::aes_left) : fault.reply; }, real);
-    PlanesSetup faulty = setup(&model, decide::Guard::never_worse_than_braking);
+    PlanesSetup faulty = setup(&model, reflex::Guard::never_worse_than_braking);
     faulty.clock = &real;
     Planes planes(faulty, {}, 1'000);
-    const decide::Decision decision = met(planes);
+    const reflex::Decision decision = met(planes);
     EXPECT_EQ(decision.plan, without.plan);
-    EXPECT_EQ(decision.source, decide::Source::arbiter);
+    EXPECT_EQ(decision.source, reflex::Source::arbiter);
     EXPECT_EQ(decision.time, without.time);
     EXPECT_THAT(thoughts(planes), testing::HasSubstr(fault.told));
     well = true;
     planes.begin_anew();
-    EXPECT_EQ(met(planes, 10.0).source, decide::Source::model);
+    EXPECT_EQ(met(planes, 10.0).source, reflex::Source::model);
   }
 }
 
@@ -193,19 +196,19 @@ TEST_F(PlanesTest, AModelThatFailsIsToldAndHeardTheNextTime) {
 // that is there within the next millisecond is not heard.
 TEST_F(PlanesTest, AnAnswerThatIsOneMillisecondLateIsNotHeard) {
   const auto answered_after = [&](int prompt_tokens) {
-    reason::ScriptedReply reply = says(PolicyId::aes_left);
+    language_model::ScriptedReply reply = says(PolicyId::aes_left);
     reply.prompt_tokens = prompt_tokens;
-    reason::ScriptedModel model(reply, clock_);
-    Planes planes(setup(&model, decide::Guard::never_worse_than_braking), {}, 500);
-    const decide::Decision decision = met(planes);
+    language_model::ScriptedModel model(reply, clock_);
+    Planes planes(setup(&model, reflex::Guard::never_worse_than_braking), {}, 500);
+    const reflex::Decision decision = met(planes);
     return std::pair(decision, planes.previews().at(0).situation.scene_at_trigger.time);
   };
   constexpr double asked_at = 0.05;  // after the forecasts of the first round [s]
   constexpr double margin = 0.05;    // before the forecast trigger [s]
   const double trigger = answered_after(10).second;
   const int most = static_cast<int>(std::floor((trigger - margin - asked_at) / 0.001));
-  EXPECT_EQ(answered_after(most).first.source, decide::Source::model);
-  EXPECT_EQ(answered_after(most + 1).first.source, decide::Source::arbiter);
+  EXPECT_EQ(answered_after(most).first.source, reflex::Source::model);
+  EXPECT_EQ(answered_after(most + 1).first.source, reflex::Source::arbiter);
 }
 
 /// 12.5 m/s on a dry road towards a wreck, which the small atlas knows, at pace `real`, on time
@@ -213,7 +216,7 @@ TEST_F(PlanesTest, AnAnswerThatIsOneMillisecondLateIsNotHeard) {
 class ForecasterFaults : public PlanesTest {
  protected:
   /// Drives up to the trigger.
-  decide::Decision met(Planes& planes) {
+  reflex::Decision met(Planes& planes) {
     const Clock::Time start = meeting_.now();
     for (int k = 0; k < 250; ++k) {
       const double time = 0.01 * k;
@@ -235,27 +238,26 @@ class ForecasterFaults : public PlanesTest {
   /// verdict, in the second it is well.
   /// @return  what Planes::finish says
   std::string expect_that_the_atlas_stands_in(const std::function<void()>& fault) {
-    const decide::Forecaster forecaster({.car = &car_, .harm = &harm_});
-    PlanesSetup faulty{
-        .forecast = {.car = &car_, .harm = &harm_, .atlas = &manoeuvre::small_atlas()},
-        .pace = Pace::real,
-        .judge =
-            [&](const auto&... seen) {
-              if (!well_) {
-                fault();
-              }
-              return forecaster.judge(seen...);
-            },
-        .clock = &meeting_};
+    const arbitration::Forecaster forecaster({.car = &car_, .harm = &harm_});
+    PlanesSetup faulty{.forecast = {.car = &car_, .harm = &harm_, .atlas = &atlas::small_atlas()},
+                       .pace = Pace::real,
+                       .judge =
+                           [&](const auto&... seen) {
+                             if (!well_) {
+                               fault();
+                             }
+                             return forecaster.judge(seen...);
+                           },
+                       .clock = &meeting_};
     Planes planes(faulty, {}, 1'000);
-    const decide::Decision decision = met(planes);
+    const reflex::Decision decision = met(planes);
     EXPECT_TRUE(decision.by_atlas);
     EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
-    EXPECT_THAT(decide::decision_text(decision), testing::HasSubstr("by the atlas"));
+    EXPECT_THAT(arbitration::decision_text(decision), testing::HasSubstr("by the atlas"));
     well_ = true;
     meeting_.wait_until(meeting_.now() + from_seconds(1.0));  // what was begun comes to its end
     planes.begin_anew();
-    const decide::Decision next = met(planes);
+    const reflex::Decision next = met(planes);
     EXPECT_FALSE(next.by_atlas);
     EXPECT_TRUE(next.verdict.has_value());
     EXPECT_EQ(next.plan.policy, PolicyId::aeb);
@@ -289,12 +291,12 @@ TEST_F(ForecasterFaults, WhatOneThrowsIsToldInTheEnd) {
 // Asked in one encounter, answered in the next, which is just like it and 0.4 s nearer to its end:
 // 20 ms before its trigger the plan is there, and it is not for it.
 TEST_F(PlanesTest, PlansOfOneEncounterAreNotHandedOverInTheNext) {
-  const auto guard = decide::Guard::none;  // whatever is cached is carried out
+  const auto guard = reflex::Guard::none;  // whatever is cached is carried out
   const double trigger = decided(nullptr, guard).time - 0.4;
   int num_asked = 0;
-  reason::ScriptedModel model(
+  language_model::ScriptedModel model(
       [&](const std::string&) {
-        reason::ScriptedReply reply = says(PolicyId::aes_left);
+        language_model::ScriptedReply reply = says(PolicyId::aes_left);
         reply.prompt_tokens = static_cast<int>(std::lround(1000.0 * (trigger - 0.02 - 0.05)));
         if (++num_asked > 1) {
           reply.error = Error{Error::Code::unreadable, "it is mute"};
@@ -320,21 +322,21 @@ TEST_F(PlanesTest, PlansOfOneEncounterAreNotHandedOverInTheNext) {
       step(scene);
     }
     ASSERT_TRUE(planes.decision().has_value());
-    EXPECT_EQ(planes.decision()->source, anew ? decide::Source::fallback : decide::Source::model);
+    EXPECT_EQ(planes.decision()->source, anew ? reflex::Source::fallback : reflex::Source::model);
   }
 }
 
 // Ten minutes into a drive another begins, whose time counts from 0: forecaster and model are there
 // for it as for the first.
 TEST_F(PlanesTest, ANewDriveIsThoughtAboutAsTheFirst) {
-  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
-  Planes planes(setup(&model, decide::Guard::never_worse_than_braking), {}, 1000);
-  const decide::Decision first = met(planes, 600.0);
-  EXPECT_EQ(first.source, decide::Source::model);
+  language_model::ScriptedModel model(says(PolicyId::aes_left), clock_);
+  Planes planes(setup(&model, reflex::Guard::never_worse_than_braking), {}, 1000);
+  const reflex::Decision first = met(planes, 600.0);
+  EXPECT_EQ(first.source, reflex::Source::model);
   ASSERT_TRUE(first.verdict.has_value());
   planes.begin_anew(Reset::drive);
-  const decide::Decision second = met(planes);
-  EXPECT_EQ(second.source, decide::Source::model);
+  const reflex::Decision second = met(planes);
+  EXPECT_EQ(second.source, reflex::Source::model);
   ASSERT_TRUE(second.verdict.has_value());
   EXPECT_NEAR(second.verdict->time, first.verdict->time - 600.0, 1e-6);
 }
@@ -343,10 +345,10 @@ TEST_F(PlanesTest, ANewDriveIsThoughtAboutAsTheFirst) {
 TEST_F(PlanesTest, AVerdictOfOneEncounterIsNotHandedOverInTheNext) {
   for (const bool anew : {false, true}) {
     MeetingClock meeting(3);
-    PlanesSetup slow = setup(nullptr, decide::Guard::never_worse_than_braking);
+    PlanesSetup slow = setup(nullptr, reflex::Guard::never_worse_than_braking);
     slow.pace = Pace::real;
     slow.clock = &meeting;
-    slow.judge = [&, forecaster = decide::Forecaster(slow.forecast)](const auto&... seen) {
+    slow.judge = [&, forecaster = arbitration::Forecaster(slow.forecast)](const auto&... seen) {
       meeting.wait_until(meeting.now() + from_seconds(0.1));
       return forecaster.judge(seen...);
     };
@@ -372,14 +374,14 @@ TEST_F(PlanesTest, AVerdictOfOneEncounterIsNotHandedOverInTheNext) {
 // is withdrawn, and the model is asked about the next.
 TEST_F(PlanesTest, AQuestionOfAnEncounterThatIsOverKeepsTheModelFromNobody) {
   MeetingClock meeting(3);
-  reason::ScriptedReply reply = says(PolicyId::aes_left);
+  language_model::ScriptedReply reply = says(PolicyId::aes_left);
   reply.lines[0].after = std::chrono::seconds(2);
   for (int k = 19; k > 0; --k) {
     reply.lines.insert(reply.lines.begin(),
                        {.after = std::chrono::milliseconds(100 * k), .text = "so "});
   }
-  reason::ScriptedModel model(reply, meeting);
-  PlanesSetup real = setup(&model, decide::Guard::never_worse_than_braking);
+  language_model::ScriptedModel model(reply, meeting);
+  PlanesSetup real = setup(&model, reflex::Guard::never_worse_than_braking);
   real.pace = Pace::real;
   real.clock = &meeting;
   Planes planes(real, {}, 100);
@@ -399,10 +401,10 @@ TEST_F(PlanesTest, AQuestionOfAnEncounterThatIsOverKeepsTheModelFromNobody) {
 // It reads for a second, and what it says fails the check: until then it is busy, also with what
 // comes up meanwhile.
 TEST_F(PlanesTest, TheModelIsBusyUntilItHasAnsweredWhateverItsAnswerIsWorth) {
-  reason::ScriptedReply reply = says(PolicyId::no_intervention);
+  language_model::ScriptedReply reply = says(PolicyId::no_intervention);
   reply.prompt_tokens = 1000;
-  reason::ScriptedModel model(reply, clock_);
-  Planes planes(setup(&model, decide::Guard::never_worse_than_braking), {}, 1000);
+  language_model::ScriptedModel model(reply, clock_);
+  Planes planes(setup(&model, reflex::Guard::never_worse_than_braking), {}, 1000);
   const auto step = [&](const world::Scene& scene) {
     const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
     planes.step(scene, beliefs, Clock::Time{0}, false);
@@ -419,17 +421,17 @@ TEST_F(PlanesTest, TheModelIsBusyUntilItHasAnsweredWhateverItsAnswerIsWorth) {
   const auto& events = planes.thinking_events();
   EXPECT_TRUE(std::is_sorted(
       events.begin(), events.end(),
-      [](const decide::Event& a, const decide::Event& b) { return a.time < b.time; }));
+      [](const arbitration::Event& a, const arbitration::Event& b) { return a.time < b.time; }));
 }
 
 // One forecast after the other is forgotten in an encounter that does not end. What is kept of its
 // story is bounded, and says how much is missing.
 TEST_F(PlanesTest, TheStoryOfAnEndlessEncounterIsBounded) {
   std::size_t heard = 0;
-  PlanesSetup small = setup(nullptr, decide::Guard::none);
+  PlanesSetup small = setup(nullptr, reflex::Guard::none);
   small.most_events = 8;
   Planes::Listener counts;
-  counts.event = [&](const decide::Event&) { ++heard; };
+  counts.event = [&](const arbitration::Event&) { ++heard; };
   Planes planes(small, counts, 100);
   for (int k = 0; k < 20; ++k) {
     world::Scene scene = at(0.0);
@@ -452,7 +454,7 @@ TEST_F(PlanesTest, TheStoryOfAnEndlessEncounterIsBounded) {
 }
 
 TEST_F(PlanesTest, NothingIsToldOfTimesBeforeTheFirstStep) {
-  const Planes planes(setup(nullptr, decide::Guard::never_worse_than_braking), {}, 10);
+  const Planes planes(setup(nullptr, reflex::Guard::never_worse_than_braking), {}, 10);
   EXPECT_EQ(planes.timing().calls, 0U);
   EXPECT_EQ(planes.decision(), std::nullopt);
 }

@@ -7,11 +7,11 @@
 #include <limits>
 #include <utility>
 
-#include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
-#include "saca/manoeuvre/drive.h"
-#include "saca/memory/scene_json.h"
+#include "saca/base/config/json_reader.h"
+#include "saca/base/config/json_text.h"
+#include "saca/onboard/manoeuvre/drive.h"
 #include "saca/runtime/tape_json.h"
+#include "saca/thinking/memory/scene_json.h"
 
 namespace saca::runtime {
 namespace {
@@ -61,8 +61,8 @@ manoeuvre::Plan read_plan(JsonReader from) {
   return plan;
 }
 
-decide::JudgedPlan read_judged(JsonReader from) {
-  const decide::JudgedPlan judged{.plan = read_plan(from.object("plan")),
+reflex::JudgedPlan read_judged(JsonReader from) {
+  const reflex::JudgedPlan judged{.plan = read_plan(from.object("plan")),
                                   .drivable = from.flag("drivable"),
                                   .harm = from.number("harm"),
                                   .contact = from.number("contact"),
@@ -72,16 +72,16 @@ decide::JudgedPlan read_judged(JsonReader from) {
 }
 
 /// All of a verdict but that no other key may be there.
-decide::Verdict read_verdict_keys(JsonReader& from) {
-  decide::Verdict verdict{.time = from.number("t_s")};
+reflex::Verdict read_verdict_keys(JsonReader& from) {
+  reflex::Verdict verdict{.time = from.number("t_s")};
   read_list(from, "plans", verdict.plans, read_judged);
   verdict.later = read_number(from, "later");
   verdict.under_way = read_optional(from, "under_way", read_judged);
   return verdict;
 }
 
-decide::Verdict read_verdict(JsonReader from) {
-  const decide::Verdict verdict = read_verdict_keys(from);
+reflex::Verdict read_verdict(JsonReader from) {
+  const reflex::Verdict verdict = read_verdict_keys(from);
   from.refuse_others();
   return verdict;
 }
@@ -92,9 +92,9 @@ NumberedVerdict read_numbered(JsonReader from) {
   return numbered;
 }
 
-memory::EgoFeatures read_ego_features(JsonReader from) {
+match::EgoFeatures read_ego_features(JsonReader from) {
   constexpr std::string_view beyonds = "unmarked, kerb, barrier or trees";
-  memory::EgoFeatures ego;
+  match::EgoFeatures ego;
   ego.usable = from.flag("usable");
   ego.v_L = {from.number("along_mps"), from.number("across_mps")};
   ego.offset = from.number("offset_m");
@@ -116,8 +116,8 @@ memory::EgoFeatures read_ego_features(JsonReader from) {
   return ego;
 }
 
-memory::ActorFeatures read_actor_features(JsonReader from) {
-  memory::ActorFeatures actor;
+match::ActorFeatures read_actor_features(JsonReader from) {
+  match::ActorFeatures actor;
   actor.p_rel_L = {from.number("ahead_m"), from.number("left_m")};
   actor.v_rel_L = {from.number("along_mps"), from.number("across_mps")};
   actor.sideways = from.number("sideways_mps2");
@@ -130,8 +130,8 @@ memory::ActorFeatures read_actor_features(JsonReader from) {
   return actor;
 }
 
-decide::Source read_source(JsonReader& from) {
-  return from.word("source", named<decide::Source, 5>,
+reflex::Source read_source(JsonReader& from) {
+  return from.word("source", named<reflex::Source, 5>,
                    "fallback, memory, model, forced or arbiter");
 }
 
@@ -140,8 +140,8 @@ std::int32_t read_preview(JsonReader& from) {
       from.integer("preview", std::numeric_limits<std::int32_t>::max()));
 }
 
-decide::CachedPlan read_cached(JsonReader from) {
-  decide::CachedPlan cached;
+reflex::CachedPlan read_cached(JsonReader from) {
+  reflex::CachedPlan cached;
   cached.at_trigger.ego = read_ego_features(from.object("ego"));
   read_list(from, "actors", cached.at_trigger.actors, read_actor_features);
   cached.trigger = from.number("trigger_s");
@@ -153,16 +153,16 @@ decide::CachedPlan read_cached(JsonReader from) {
   return cached;
 }
 
-preview::Threat read_threat(JsonReader from) {
-  const preview::Threat threat{from.integer("actor", world::max_actors - 1), from.number("time_s")};
+reflex::Threat read_threat(JsonReader from) {
+  const reflex::Threat threat{from.integer("actor", world::max_actors - 1), from.number("time_s")};
   from.refuse_others();
   return threat;
 }
 
-decide::Switch read_switch(JsonReader from) {
-  const decide::Switch change{
+reflex::Switch read_switch(JsonReader from) {
+  const reflex::Switch change{
       .plan = read_plan(from.object("plan")),
-      .reason = from.word("reason", named<decide::SwitchReason, 4>,
+      .reason = from.word("reason", named<reflex::SwitchReason, 4>,
                           "needed after all, no longer needed, better by far or harder needed"),
       .harm = from.number("harm"),
       .harm_before = from.number("harm_before")};
@@ -170,8 +170,8 @@ decide::Switch read_switch(JsonReader from) {
   return change;
 }
 
-decide::Reflex read_reflex(JsonReader from) {
-  decide::Reflex reflex;
+reflex::Reflex read_reflex(JsonReader from) {
+  reflex::Reflex reflex;
   reflex.plan = read_plan(from.object("plan"));
   reflex.threat = read_optional(from, "threat", read_threat);
   reflex.triggered = from.flag("triggered");
@@ -181,16 +181,16 @@ decide::Reflex read_reflex(JsonReader from) {
   return reflex;
 }
 
-decide::RefusedPlan read_refused(JsonReader from) {
+reflex::RefusedPlan read_refused(JsonReader from) {
   constexpr std::uint64_t last = static_cast<std::uint64_t>(manoeuvre::Refusal::strength);
-  const decide::RefusedPlan refused{read_plan(from.object("plan")),
+  const reflex::RefusedPlan refused{read_plan(from.object("plan")),
                                     static_cast<manoeuvre::Refusal>(from.integer("why", last))};
   from.refuse_others();
   return refused;
 }
 
-decide::Decision read_decision(JsonReader from) {
-  decide::Decision decision;
+reflex::Decision read_decision(JsonReader from) {
+  reflex::Decision decision;
   decision.plan = read_plan(from.object("plan"));
   decision.source = read_source(from);
   decision.similarity = read_number(from, "similarity");
@@ -265,14 +265,14 @@ void read_before(JsonReader& from, TapeContent& content) {
   from.refuse_others();
 }
 
-preview::Thresholds read_thresholds(JsonReader from) {
-  const preview::Thresholds thresholds{.trigger = from.number("trigger_s"),
-                                       .preview = from.number("preview_s"),
-                                       .trigger_tolerance = from.number("trigger_tolerance_s"),
-                                       .preview_tolerance = from.number("preview_tolerance_s"),
-                                       .least_posterior = from.number("least_posterior"),
-                                       .waiting_cost = read_number(from, "waiting_cost"),
-                                       .earliest_swerve = from.number("earliest_swerve_s")};
+reflex::Thresholds read_thresholds(JsonReader from) {
+  const reflex::Thresholds thresholds{.trigger = from.number("trigger_s"),
+                                      .preview = from.number("preview_s"),
+                                      .trigger_tolerance = from.number("trigger_tolerance_s"),
+                                      .preview_tolerance = from.number("preview_tolerance_s"),
+                                      .least_posterior = from.number("least_posterior"),
+                                      .waiting_cost = read_number(from, "waiting_cost"),
+                                      .earliest_swerve = from.number("earliest_swerve_s")};
   from.refuse_others();
   return thresholds;
 }

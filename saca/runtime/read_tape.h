@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "saca/core/result.h"
+#include "saca/base/core/result.h"
 #include "saca/runtime/tape_json.h"
 
 namespace saca::runtime {

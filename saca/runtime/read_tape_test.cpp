@@ -8,7 +8,7 @@
 #include <functional>
 #include <sstream>
 
-#include "saca/core/fnv.h"
+#include "saca/base/core/fnv.h"
 #include "saca/runtime/tape_for_test.h"
 
 namespace saca::runtime::read_tape_test {
@@ -32,10 +32,10 @@ class ReadTape : public testing::Test {
     TapeContent content = drive.driven(setup, 190);
     content.dropped = 165;  // the trigger and what is around it
     content.steps.erase(content.steps.begin(), content.steps.begin() + 165);
-    decide::CachedPlan cached{.at_trigger = memory::features(content.steps[3].scene),
+    reflex::CachedPlan cached{.at_trigger = match::features(content.steps[3].scene),
                               .trigger = content.steps[3].scene.time + 1.0 / 3.0,
                               .plan = {manoeuvre::PolicyId::aes_left, std::nullopt},
-                              .source = decide::Source::memory,
+                              .source = reflex::Source::memory,
                               .preview = 2};
     content.steps[3].plans.emplace().push_back(cached);
     content.plans.push_back(cached);

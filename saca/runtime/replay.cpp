@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "saca/decide/forecaster.h"
 #include "saca/runtime/tape_json.h"
+#include "saca/thinking/arbitration/forecaster.h"
 
 namespace saca::runtime {
 namespace {
@@ -54,12 +54,12 @@ class Player {
   const TapeContent& tape_;
   const intent::Model& intent_;
   intent::Observer observer_;
-  decide::Forecaster forecaster_;
-  decide::ReflexPlane reflex_;
+  arbitration::Forecaster forecaster_;
+  reflex::ReflexPlane reflex_;
   bool is_observed_ = false;  ///< without a gap from where the observer began
   std::optional<std::uint64_t> last_;
-  std::optional<decide::UnderWay> under_way_;                  ///< as recorded
-  std::vector<std::optional<decide::UnderWay>> under_way_at_;  ///< of the steps so far
+  std::optional<reflex::UnderWay> under_way_;                  ///< as recorded
+  std::vector<std::optional<reflex::UnderWay>> under_way_at_;  ///< of the steps so far
   Replay replay_;
 };
 
@@ -128,14 +128,14 @@ void Player::answer(const TapeStep& step) {
   if (step.reflex.refused_scene) {
     return;
   }
-  const decide::Reflex reflex = reflex_.step(step.scene, step.finished);
+  const reflex::Reflex reflex = reflex_.step(step.scene, step.finished);
   if (step.decision || reflex.triggered) {
     compare(step, "decision", step.decision ? decision_json(*step.decision) : json(nullptr),
             reflex.triggered ? decision_json(*reflex_.decision()) : json(nullptr),
             replay_.decisions);
   }
   if (step.reflex.switched || reflex.switched) {
-    const auto json_of = [](const std::optional<decide::Switch>& change) {
+    const auto json_of = [](const std::optional<reflex::Switch>& change) {
       return change ? switch_json(*change) : json(nullptr);
     };
     compare(step, "switch", json_of(step.reflex.switched), json_of(reflex.switched),
@@ -143,7 +143,7 @@ void Player::answer(const TapeStep& step) {
   }
   compare(step, "answer", reflex_json(step.reflex), reflex_json(reflex), replay_.answers);
   if (step.reflex.triggered || step.reflex.switched) {
-    under_way_ = decide::UnderWay{.plan = step.reflex.plan,
+    under_way_ = reflex::UnderWay{.plan = step.reflex.plan,
                                   .begun = step.scene.time,
                                   .ego = step.scene.ego,
                                   .road = step.scene.road,

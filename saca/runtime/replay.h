@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "saca/intent/model.h"
 #include "saca/runtime/planes.h"
 #include "saca/runtime/tape.h"
+#include "saca/thinking/intent/model.h"
 
 namespace saca::runtime {
 

@@ -23,7 +23,7 @@ void expect_all(const Reproduction& of, std::size_t least) {
 class ReplayTest : public testing::Test {
  protected:
   Replay replayed(const TapeContent& tape) {
-    return replay(tape, drive_.setup(), intent::shipped_model(), decide::usual_draws);
+    return replay(tape, drive_.setup(), intent::shipped_model(), arbitration::usual_draws);
   }
   const TapeContent& tape() {
     static const TapeContent content = TapedDrive().driven(TapedDrive().setup());
@@ -75,13 +75,13 @@ TEST_F(ReplayTest, OneBitOfASceneThatWasJudgedIsNoticed) {
 
 TEST_F(ReplayTest, NamesWhatIsNotTheSame) {
   TapeContent altered = tape();
-  const auto harms = [](const decide::JudgedPlan& one) { return one.harm > 0.0; };
+  const auto harms = [](const reflex::JudgedPlan& one) { return one.harm > 0.0; };
   TapeStep& step = first(altered, [&](const TapeStep& one) {
     return one.verdict &&
            std::any_of(one.verdict->verdict.plans.begin(), one.verdict->verdict.plans.end(), harms);
   });
   auto& plans = step.verdict->verdict.plans;
-  decide::JudgedPlan& plan = *std::find_if(plans.begin(), plans.end(), harms);
+  reflex::JudgedPlan& plan = *std::find_if(plans.begin(), plans.end(), harms);
   const double recorded = plan.harm;
   plan.harm = std::nextafter(plan.harm, infinity);
   const Replay replay = replayed(altered);
@@ -98,7 +98,7 @@ TEST_F(ReplayTest, NamesWhatIsNotTheSame) {
 TEST_F(ReplayTest, AnotherDecisionOrSwitchIsNoticed) {
   TapeContent altered = tape();
   TapeStep& trigger = first(altered, [](const TapeStep& step) { return step.reflex.triggered; });
-  trigger.decision->source = decide::Source::model;
+  trigger.decision->source = reflex::Source::model;
   Replay replay = replayed(altered);
   EXPECT_EQ(replay.decisions.same, 0U);
   EXPECT_EQ(replay.first->what, "decision.source");

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "saca/core/names.h"
+#include "saca/base/core/names.h"
 
 namespace saca::runtime {
 namespace {
@@ -120,9 +120,8 @@ std::string_view name(Reset forgotten) {
 
 std::size_t Tape::step_size(std::size_t num_actors) noexcept {
   const std::size_t missing = world::max_actors - std::min(num_actors, world::max_actors);
-  const std::size_t less =
-      missing * (sizeof(world::Actor) + sizeof(intent::Belief) +
-                 decide::PlanCache::capacity() * sizeof(memory::ActorFeatures));
+  const std::size_t less = missing * (sizeof(world::Actor) + sizeof(intent::Belief) +
+                                      reflex::PlanCache::capacity() * sizeof(match::ActorFeatures));
   return sizeof(Size) + sizeof(TapeStep) - less;
 }
 

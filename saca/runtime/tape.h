@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/decide/plan_cache.h"
-#include "saca/decide/reflex_plane.h"
-#include "saca/decide/verdict.h"
-#include "saca/intent/observer.h"
+#include "saca/base/world/scene.h"
+#include "saca/onboard/reflex/plan_cache.h"
+#include "saca/onboard/reflex/reflex_plane.h"
+#include "saca/onboard/reflex/verdict.h"
 #include "saca/runtime/work_thread.h"
-#include "saca/world/scene.h"
+#include "saca/thinking/intent/observer.h"
 
 namespace saca::runtime {
 
@@ -31,16 +31,16 @@ struct TapeStep {
   world::Scene scene;                      ///< as it was perceived
   intent::Beliefs beliefs;                 ///< one per actor
   bool finished = false;                   ///< what was carried out had reached its safe end
-  std::optional<decide::PlanCache> plans;  ///< of the thinking plane, handed over in this step
+  std::optional<reflex::PlanCache> plans;  ///< of the thinking plane, handed over in this step
   std::optional<NumberedVerdict> verdict;  ///< of the forecaster, likewise
-  decide::Reflex reflex;                   ///< what the reflex plane answered
-  std::optional<decide::Decision> decision;  ///< where it was triggered in this step
+  reflex::Reflex reflex;                   ///< what the reflex plane answered
+  std::optional<reflex::Decision> decision;  ///< where it was triggered in this step
 };
 
 /// What a tape holds, unpacked.
 struct TapeContent {
-  decide::PlanCache plans;                 ///< that the reflex plane had before the first step
-  std::optional<decide::Verdict> verdict;  ///< likewise
+  reflex::PlanCache plans;                 ///< that the reflex plane had before the first step
+  std::optional<reflex::Verdict> verdict;  ///< likewise
   std::uint64_t dropped = 0;               ///< older steps that gave way to newer ones
   std::uint64_t lost = 0;                  ///< newer steps for which there was no room
   std::vector<TapeStep> steps;             ///< by number; those that were lost are missing

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/default_car.h"
-#include "saca/outcome/harm.h"
+#include "saca/onboard/collision/harm.h"
+#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/runtime/planes.h"
 #include "saca/runtime/tape.h"
 #include "saca/runtime/wreck_for_test.h"
+#include "saca/thinking/intent/shipped_model.h"
 
 namespace saca::runtime {
 
@@ -17,7 +17,7 @@ namespace saca::runtime {
 /// on whatever is decided, and the wreck vanishes 0.4 s after the trigger.
 struct TapedDrive {
   manoeuvre::Car car = manoeuvre::default_car();
-  outcome::HarmModel harm = outcome::read_harm("data/harm.toml").value();
+  collision::HarmModel harm = collision::read_harm("data/harm.toml").value();
   SteadyClock steady;
 
   [[nodiscard]] PlanesSetup setup(Pace pace = Pace::lockstep, Clock* clock = nullptr) {

@@ -7,16 +7,16 @@
 #include <span>
 #include <utility>
 
-#include "saca/core/simd_level.h"
-#include "saca/decide/forecaster.h"
-#include "saca/manoeuvre/atlas_identity.h"
+#include "saca/base/core/simd_level.h"
+#include "saca/onboard/atlas/atlas_identity.h"
+#include "saca/thinking/arbitration/forecaster.h"
 
 namespace saca::runtime {
 namespace {
 
-std::string digest_of(const manoeuvre::Atlas& atlas) {
+std::string digest_of(const atlas::Atlas& atlas) {
   Fnv hash;
-  hash.add(manoeuvre::grid_hash(atlas.grid()));
+  hash.add(atlas::grid_hash(atlas.grid()));
   for (const std::byte byte : std::as_bytes(atlas.nodes())) {
     hash.add(std::to_integer<std::uint64_t>(byte));
   }
@@ -39,7 +39,7 @@ TapeHeader tape_header(const PlanesSetup& setup, const intent::Model& intent) {
   return {.program = {},
           .level = std::string(name(best_level())),
           .car = {},
-          .car_digest = hash_of([&](Fnv& hash) { hash.add(manoeuvre::car_hash(*tools.car)); }),
+          .car_digest = hash_of([&](Fnv& hash) { hash.add(atlas::car_hash(*tools.car)); }),
           .intent_digest = hash_of([&](Fnv& hash) { hash.add(intent::digest(intent)); }),
           .harm_digest = hash_of([&](Fnv& hash) { hash.add_doubles(*tools.harm); }),
           .atlas = tools.atlas == nullptr ? std::nullopt : std::optional(digest_of(*tools.atlas)),
@@ -49,8 +49,8 @@ TapeHeader tape_header(const PlanesSetup& setup, const intent::Model& intent) {
           .danger = tools.danger != nullptr,
           .model = setup.model == nullptr ? "off" : setup.model->description(),
           .memory = setup.memory != nullptr,
-          .num_draws = decide::usual_draws,
-          .guarded = setup.guard != decide::Guard::none,
+          .num_draws = arbitration::usual_draws,
+          .guarded = setup.guard != reflex::Guard::none,
           .forced = setup.forced,
           .thresholds = setup.thresholds,
           .pace = setup.pace,

@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "saca/core/fnv.h"
-#include "saca/core/result.h"
-#include "saca/intent/model.h"
-#include "saca/manoeuvre/plan.h"
-#include "saca/preview/threat.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/result.h"
+#include "saca/onboard/manoeuvre/plan.h"
+#include "saca/onboard/reflex/threat.h"
 #include "saca/runtime/charged_model.h"
 #include "saca/runtime/planes.h"
+#include "saca/thinking/intent/model.h"
 
 namespace saca::runtime {
 
@@ -28,9 +28,9 @@ struct TapeHeader {
   std::string model = "off";              ///< the language model's description
   bool memory = false;                    ///< was there one?
   std::uint64_t num_draws = 0;            ///< of a verdict
-  bool guarded = true;                    ///< decide::Guard::never_worse_than_braking
+  bool guarded = true;                    ///< reflex::Guard::never_worse_than_braking
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
-  preview::Thresholds thresholds;
+  reflex::Thresholds thresholds;
   Pace pace = Pace::lockstep;
   ThinkingCosts costs;
   std::string scenario;               ///< its name; empty: none

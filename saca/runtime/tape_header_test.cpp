@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/onboard/atlas/atlas_for_test.h"
 #include "saca/runtime/tape_for_test.h"
 
 namespace saca::runtime::tape_header_test {
@@ -15,13 +15,13 @@ using testing::StartsWith;
 TEST(TapeHeader, TellsWhatThePlanesAreMadeOf) {
   TapedDrive drive;
   PlanesSetup setup = drive.setup(Pace::real);
-  setup.guard = decide::Guard::none;
+  setup.guard = reflex::Guard::none;
   setup.thresholds.trigger = 1.5;
   const TapeHeader header = tape_header(setup, intent::shipped_model());
   EXPECT_EQ(header.pace, Pace::real);
   EXPECT_FALSE(header.guarded);
   EXPECT_EQ(header.thresholds.trigger, 1.5);
-  EXPECT_EQ(header.num_draws, decide::usual_draws);
+  EXPECT_EQ(header.num_draws, arbitration::usual_draws);
   EXPECT_EQ(header.model, "off");
   EXPECT_FALSE(header.atlas.has_value());
 }
@@ -32,7 +32,7 @@ TEST(TapeHeader, WhateverResultsDependOnHasADigestOfItsOwn) {
   drive.car.mass += 1.0;
   drive.harm.killed_weight *= 1.5;
   PlanesSetup setup = drive.setup();
-  setup.forecast.atlas = &manoeuvre::small_atlas();
+  setup.forecast.atlas = &atlas::small_atlas();
   const intent::CueLaw cues = intent::load_cue_law("data/cues.toml").value();
   setup.forecast.cues = &cues;
   const TapeHeader other = tape_header(setup, intent::shipped_model());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "saca/memory/scene_json.h"
+#include "saca/thinking/memory/scene_json.h"
 
 namespace saca::runtime {
 namespace {
@@ -32,7 +32,7 @@ json plan_json(const manoeuvre::Plan& plan) {
           {"strength", or_null(plan.strength, itself)}};
 }
 
-json judged_json(const decide::JudgedPlan& one) {
+json judged_json(const reflex::JudgedPlan& one) {
   return {{"plan", plan_json(one.plan)},
           {"drivable", one.drivable},
           {"harm", one.harm},
@@ -40,7 +40,7 @@ json judged_json(const decide::JudgedPlan& one) {
           {"harm_as_seen", or_null(one.as_seen, itself)}};
 }
 
-json ego_features_json(const memory::EgoFeatures& ego) {
+json ego_features_json(const match::EgoFeatures& ego) {
   return {{"usable", ego.usable},
           {"along_mps", ego.v_L.x},
           {"across_mps", ego.v_L.y},
@@ -61,7 +61,7 @@ json ego_features_json(const memory::EgoFeatures& ego) {
           {"oncoming_right", ego.oncoming_right}};
 }
 
-json actor_features_json(const memory::ActorFeatures& actor) {
+json actor_features_json(const match::ActorFeatures& actor) {
   return {{"ahead_m", actor.p_rel_L.x},      {"left_m", actor.p_rel_L.y},
           {"along_mps", actor.v_rel_L.x},    {"across_mps", actor.v_rel_L.y},
           {"sideways_mps2", actor.sideways}, {"forward_s", actor.forward_L.x},
@@ -70,7 +70,7 @@ json actor_features_json(const memory::ActorFeatures& actor) {
           {"kind", world::name(actor.kind)}};
 }
 
-json cached_json(const decide::CachedPlan& cached) {
+json cached_json(const reflex::CachedPlan& cached) {
   return {{"ego", ego_features_json(cached.at_trigger.ego)},
           {"actors", list_json(cached.at_trigger.actors, actor_features_json)},
           {"trigger_s", cached.trigger},
@@ -80,11 +80,11 @@ json cached_json(const decide::CachedPlan& cached) {
           {"preview", cached.preview}};
 }
 
-json plans_json(const decide::PlanCache& plans) {
+json plans_json(const reflex::PlanCache& plans) {
   return list_json(plans, cached_json);
 }
 
-json threat_json(const preview::Threat& threat) {
+json threat_json(const reflex::Threat& threat) {
   return {{"actor", threat.actor}, {"time_s", threat.time}};
 }
 
@@ -157,21 +157,21 @@ std::string line_of(const json& object) {
 
 }  // namespace
 
-json verdict_json(const decide::Verdict& verdict) {
+json verdict_json(const reflex::Verdict& verdict) {
   return {{"t_s", verdict.time},
           {"plans", list_json(verdict.plans, judged_json)},
           {"later", or_null(verdict.later, itself)},
           {"under_way", or_null(verdict.under_way, judged_json)}};
 }
 
-json switch_json(const decide::Switch& change) {
+json switch_json(const reflex::Switch& change) {
   return {{"plan", plan_json(change.plan)},
           {"reason", name(change.reason)},
           {"harm", change.harm},
           {"harm_before", change.harm_before}};
 }
 
-json reflex_json(const decide::Reflex& reflex) {
+json reflex_json(const reflex::Reflex& reflex) {
   return {{"plan", plan_json(reflex.plan)},
           {"threat", or_null(reflex.threat, threat_json)},
           {"triggered", reflex.triggered},
@@ -179,11 +179,11 @@ json reflex_json(const decide::Reflex& reflex) {
           {"refused_scene", reflex.refused_scene}};
 }
 
-json refused_json(const decide::RefusedPlan& refused) {
+json refused_json(const reflex::RefusedPlan& refused) {
   return {{"plan", plan_json(refused.plan)}, {"why", static_cast<int>(refused.why)}};
 }
 
-json decision_json(const decide::Decision& decision) {
+json decision_json(const reflex::Decision& decision) {
   return {{"plan", plan_json(decision.plan)},
           {"source", name(decision.source)},
           {"similarity", or_null(decision.similarity, itself)},

@@ -22,10 +22,10 @@ struct TapeFile {
 
 // What is compared when a tape is replayed: all that there is in it, to the last bit.
 
-[[nodiscard]] nlohmann::json verdict_json(const decide::Verdict& verdict);
-[[nodiscard]] nlohmann::json reflex_json(const decide::Reflex& reflex);
-[[nodiscard]] nlohmann::json decision_json(const decide::Decision& decision);
-[[nodiscard]] nlohmann::json switch_json(const decide::Switch& change);
+[[nodiscard]] nlohmann::json verdict_json(const reflex::Verdict& verdict);
+[[nodiscard]] nlohmann::json reflex_json(const reflex::Reflex& reflex);
+[[nodiscard]] nlohmann::json decision_json(const reflex::Decision& decision);
+[[nodiscard]] nlohmann::json switch_json(const reflex::Switch& change);
 /// For each road user the probabilities of all intentions now, in 0.5 s and in 1 s, one after the
 /// other.
 [[nodiscard]] nlohmann::json beliefs_json(const intent::Beliefs& beliefs);

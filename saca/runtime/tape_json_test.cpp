@@ -51,9 +51,9 @@ TEST(TapeJson, ASceneThatBreaksARuleIsLeftOut) {
   EXPECT_TRUE(lines[2]["reflex"]["refused_scene"].get<bool>());
 }
 
-// As they stand in decide/verdict.h.
+// As they stand in reflex/verdict.h.
 TEST(TapeJson, AVerdictHasTheHarmOfEachPlan) {
-  decide::Verdict verdict{.time = 1.5};
+  reflex::Verdict verdict{.time = 1.5};
   verdict.plans.push_back({.plan = {manoeuvre::PolicyId::es_b_left, 7.5},
                            .drivable = true,
                            .harm = 1.0 / 3.0,

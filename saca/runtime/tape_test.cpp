@@ -26,10 +26,10 @@ TapeStep full_step(std::uint64_t number, std::size_t num_actors) {
     belief.at[1][2] = 1.0 / static_cast<double>(i + 3);
     step.beliefs.push_back(belief);
   }
-  step.plans.emplace().push_back({.at_trigger = memory::features(step.scene),
+  step.plans.emplace().push_back({.at_trigger = match::features(step.scene),
                                   .trigger = step.scene.time + 0.7,
                                   .plan = {PolicyId::es_b_left, 7.5},
-                                  .source = decide::Source::memory,
+                                  .source = reflex::Source::memory,
                                   .preview = static_cast<std::int32_t>(number)});
   step.verdict.emplace().scene = number;
   step.verdict->verdict.time = step.scene.time;
@@ -38,14 +38,14 @@ TapeStep full_step(std::uint64_t number, std::size_t num_actors) {
                                          .harm = 0.1,
                                          .contact = 0.3,
                                          .as_seen = 0.07});
-  step.reflex.threat = preview::Threat{0, 1.2};
+  step.reflex.threat = reflex::Threat{0, 1.2};
   return step;
 }
 
 TapeStep triggered(TapeStep step) {
   step.reflex.triggered = true;
-  step.decision = decide::Decision{.plan = manoeuvre::full_braking,
-                                   .source = decide::Source::arbiter,
+  step.decision = reflex::Decision{.plan = manoeuvre::full_braking,
+                                   .source = reflex::Source::arbiter,
                                    .verdict = step.verdict->verdict,
                                    .time = step.scene.time};
   return step;

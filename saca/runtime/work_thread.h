@@ -7,12 +7,12 @@
 #include <string>
 #include <thread>
 
-#include "saca/core/clock.h"
-#include "saca/core/latest_slot.h"
-#include "saca/decide/forecaster.h"
-#include "saca/decide/verdict.h"
-#include "saca/intent/observer.h"
-#include "saca/world/scene.h"
+#include "saca/base/core/clock.h"
+#include "saca/base/core/latest_slot.h"
+#include "saca/base/world/scene.h"
+#include "saca/onboard/reflex/verdict.h"
+#include "saca/thinking/arbitration/forecaster.h"
+#include "saca/thinking/intent/observer.h"
 
 namespace saca::runtime {
 
@@ -21,14 +21,14 @@ struct TimedScene {
   world::Scene scene;
   intent::Beliefs beliefs;
   Clock::Time at{0};
-  std::optional<decide::UnderWay> under_way;
+  std::optional<reflex::UnderWay> under_way;
   std::uint32_t encounter = 0;  ///< counted from the first on
   std::uint64_t number = 0;     ///< of the scene, likewise
 };
 
 /// A verdict, and which scene it is of (TimedScene::number).
 struct NumberedVerdict {
-  decide::Verdict verdict;
+  reflex::Verdict verdict;
   std::uint64_t scene = 0;
 };
 

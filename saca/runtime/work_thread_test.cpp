@@ -5,11 +5,11 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "saca/decide/thinking_plane.h"
-#include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/default_car.h"
-#include "saca/reason/scripted_model.h"
+#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/runtime/wreck_for_test.h"
+#include "saca/thinking/arbitration/thinking_plane.h"
+#include "saca/thinking/intent/shipped_model.h"
+#include "saca/thinking/language_model/scripted_model.h"
 #include "tests/support/meeting_clock.h"
 
 namespace saca::runtime::work_thread_test {
@@ -17,7 +17,7 @@ namespace {
 
 constexpr Clock::Time breath = std::chrono::milliseconds(200);
 
-WorkThread::Work thinking(decide::ThinkingPlane& plane) {
+WorkThread::Work thinking(arbitration::ThinkingPlane& plane) {
   return [&plane](const TimedScene& newest, const std::stop_token& stop) {
     plane.think(newest.scene, newest.beliefs, newest.at, stop);
   };
@@ -27,20 +27,20 @@ WorkThread::Work thinking(decide::ThinkingPlane& plane) {
 // RealPace.
 TEST(WorkThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
   const auto car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   MeetingClock clock(2);  // this thread and the thinking one
   LatestSlot<TimedScene> scenes;
-  LatestSlot<decide::PlanCache> plans;
+  LatestSlot<reflex::PlanCache> plans;
   std::atomic<int> num_events{0};
-  decide::ThinkingPlane plane(
+  arbitration::ThinkingPlane plane(
       {.forecast = {.car = &car, .harm = &harm}, .clock = &clock}, {},
-      {.publish = [&](const decide::PlanCache& cache, double) { plans.publish(cache); },
-       .event = [&](const decide::Event&) { ++num_events; },
+      {.publish = [&](const reflex::PlanCache& cache, double) { plans.publish(cache); },
+       .event = [&](const arbitration::Event&) { ++num_events; },
        .reasoning = [](std::int32_t, std::string_view) {}});
 
   const world::Scene scene = wreck_ahead(car, 80.0);
 
-  decide::PlanCache received;
+  reflex::PlanCache received;
   bool any = false;
   {
     const WorkThread thread(scenes, clock, breath, thinking(plane));
@@ -61,20 +61,20 @@ TEST(WorkThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
 // Without an answer the question would last until the trigger, some seconds.
 TEST(WorkThread, DoesNotWaitForAModelWhenItEnds) {
   const auto car = manoeuvre::default_car();
-  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const auto harm = collision::read_harm("data/harm.toml").value();
   MeetingClock clock(2);  // this thread and the thinking one
   LatestSlot<TimedScene> scenes;
   std::atomic<bool> asked{false};
-  reason::ScriptedModel model(
+  language_model::ScriptedModel model(
       [&](const std::string&) {
         asked = true;
-        return reason::ScriptedReply{};  // never a word
+        return language_model::ScriptedReply{};  // never a word
       },
       clock);
-  decide::ThinkingPlane plane(
+  arbitration::ThinkingPlane plane(
       {.forecast = {.car = &car, .harm = &harm}, .model = &model, .clock = &clock}, {},
-      {.publish = [](const decide::PlanCache&, double) {},
-       .event = [](const decide::Event&) {},
+      {.publish = [](const reflex::PlanCache&, double) {},
+       .event = [](const arbitration::Event&) {},
        .reasoning = [](std::int32_t, std::string_view) {}});
   WorkThread thread(scenes, clock, breath, thinking(plane));
   const world::Scene scene = wreck_ahead(car, 80.0);

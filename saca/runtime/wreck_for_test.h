@@ -1,7 +1,7 @@
 #pragma once
 
-#include "saca/manoeuvre/ego.h"
-#include "saca/world/scene.h"
+#include "saca/base/world/scene.h"
+#include "saca/onboard/manoeuvre/ego.h"
 #include "tests/support/scenes.h"
 
 namespace saca::runtime {

@@ -200,7 +200,7 @@ def test_a_missing_scenario_is_named(tmp_path):
 @pytest.fixture
 def release(tmp_path):
     """A tiny copy of the 100-Car release: some rows of event 8911."""
-    return pathlib.Path(shutil.copytree(ROOT / "saca/traffic/testdata", tmp_path / "release"))
+    return pathlib.Path(shutil.copytree(ROOT / "saca/lab/recordings/testdata", tmp_path / "release"))
 
 
 def test_an_event_becomes_a_scenario_that_runs(release, tmp_path):
@@ -224,7 +224,7 @@ def test_an_event_that_is_not_there_is_named(release, tmp_path):
     assert "4711" in one_error(saca("import", "100car", release, "--event", 4711, cwd=tmp_path), BAD_INPUT)
 
 
-SMALL = ROOT / "saca/traffic/testdata/commonroad_small.xml"
+SMALL = ROOT / "saca/lab/recordings/testdata/commonroad_small.xml"
 
 
 def test_recorded_traffic_becomes_a_scenario_that_runs(tmp_path):

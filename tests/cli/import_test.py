@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from program import BAD_INPUT, CANNOT_WRITE, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
-EXCERPT = ROOT / "saca/traffic/testdata"
+EXCERPT = ROOT / "saca/lab/recordings/testdata"
 
 
 def test_all_events_are_tried_and_counted(tmp_path):

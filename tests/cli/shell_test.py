@@ -75,7 +75,7 @@ def test_what_json_prints_is_told_of_every_command_that_has_it(tmp_path):
     ("balance", "--count", 2), ("forecast", "eval", "crossing", "--count", 1), ("suite", "crossing", "--count", 1),
     ("suite", "r152", "--methods", "aeb"), ("ladder", "crossing", "--count", 1), ("atlas", "info"), ("atlas", "check", "--scenes", 3),
     ("reach", "solve", "road_edge", "--without-error"), ("reach", "tables", "one_way"), 
-    ("import", "commonroad", ROOT / "saca/traffic/testdata/commonroad_small.xml", "--output", "a.toml"), ("explain", "runs/one_way/record.json"),
+    ("import", "commonroad", ROOT / "saca/lab/recordings/testdata/commonroad_small.xml", "--output", "a.toml"), ("explain", "runs/one_way/record.json"),
     ("verify", "runs/one_way/record.json"),
 ], ids=lambda arguments: " ".join(map(str, arguments[:2])))
 def test_what_json_prints_has_the_schema_that_is_told(arguments, tmp_path):

@@ -158,7 +158,7 @@ def test_an_encounter_is_replayed_as_it_was(tmp_path):
 
 # Whoever is compared with a recorded driver meets the world as it was recorded: nothing is drawn there.
 def test_a_recorded_emergency_is_replayed_without_draws(tmp_path):
-    data = ROOT / "saca/traffic/testdata"
+    data = ROOT / "saca/lab/recordings/testdata"
     told = figures(saca("suite", "100car", "--data", data, "--methods", "saca,oracle", "--json", "--output", "c.h5", cwd=tmp_path))
     assert told["suite.100car.driver.n"] >= 1 and told["suite.100car.saca.faults"] == 0
     row = json.loads((tmp_path / "c.h5.journal").read_text().splitlines()[1])

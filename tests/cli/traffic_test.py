@@ -8,7 +8,7 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from program import BAD_INPUT, CANNOT_WRITE, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
-SMALL = ROOT / "saca/traffic/testdata/commonroad_small.xml"
+SMALL = ROOT / "saca/lab/recordings/testdata/commonroad_small.xml"
 STATE = ("<{name}><position><point><x>{x}</x><y>{y}</y></point></position><orientation><exact>0</exact></orientation>"
          "<time><exact>{step}</exact></time><velocity><exact>{speed}</exact></velocity></{name}>")
 
@@ -112,7 +112,7 @@ def test_damage_of_a_set_is_found(recordings, tmp_path):
 
 
 def test_events_of_the_100_car_study_become_a_set(tmp_path):
-    run = saca("traffic", "pack", "100car", ROOT / "saca/traffic/testdata", "-o", "set.h5", "--json", cwd=tmp_path)
+    run = saca("traffic", "pack", "100car", ROOT / "saca/lab/recordings/testdata", "-o", "set.h5", "--json", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     told = json.loads(run.stdout)
     assert (told["all"]["recordings"], told["all"]["samples"]) == (1, 62)  # the excerpt has 62 rows

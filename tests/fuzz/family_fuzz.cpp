@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "saca/core/file.h"
-#include "saca/sim/family.h"
-#include "saca/sim/splits.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/families/family.h"
+#include "saca/lab/families/splits.h"
 
 namespace {
 
@@ -23,12 +23,12 @@ void expect_named(const saca::Result<T>& result) {
 // Whatever a family, its surroundings, splits or suites hold: it is refused with a message that
 // names the file, or every range in it is one.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  namespace sim = saca::sim;
+  namespace families = saca::families;
   static const std::string surroundings =
       saca::read_file(SACA_FAMILIES "/surroundings.toml").value();
   static const std::string crossing = saca::read_file(SACA_FAMILIES "/crossing.toml").value();
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto family = sim::read_family(text, "fuzz.toml", surroundings, "surroundings");
+  const auto family = families::read_family(text, "fuzz.toml", surroundings, "surroundings");
   expect_named(family);
   if (family.has_value()) {
     for (const auto& [key, range] : family.value().ranges) {
@@ -37,8 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   }
-  expect_named(sim::read_family(crossing, "crossing", text, "fuzz.toml"));
-  expect_named(sim::read_splits(text, "fuzz.toml"));
-  expect_named(sim::read_suites(text, "fuzz.toml"));
+  expect_named(families::read_family(crossing, "crossing", text, "fuzz.toml"));
+  expect_named(families::read_splits(text, "fuzz.toml"));
+  expect_named(families::read_suites(text, "fuzz.toml"));
   return 0;
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "saca/core/file.h"
+#include "saca/base/core/file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

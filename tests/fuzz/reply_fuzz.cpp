@@ -3,17 +3,17 @@
 #include <string>
 #include <string_view>
 
-#include "saca/reason/chat_stream.h"
-#include "saca/reason/example_situation.h"
-#include "saca/reason/prompt.h"
-#include "saca/reason/protocol.h"
-#include "saca/reason/replay_model.h"
-#include "saca/reason/reply.h"
-#include "saca/reason/truth.h"
+#include "saca/thinking/language_model/chat_stream.h"
+#include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/protocol.h"
+#include "saca/thinking/language_model/replay_model.h"
+#include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/truth.h"
 
 namespace {
 
-namespace reason = saca::reason;
+namespace language_model = saca::language_model;
 
 void require(bool promise) {
   if (!promise) {
@@ -23,7 +23,7 @@ void require(bool promise) {
 
 /// In pieces of a size, as a connection may deliver it; nullopt: refused.
 std::optional<std::string> streamed(std::string_view bytes, std::size_t piece) {
-  reason::ChatStream stream;
+  language_model::ChatStream stream;
   std::string text;
   for (std::size_t from = 0; from < bytes.size(); from += piece) {
     const auto more = stream.take(bytes.substr(from, piece));
@@ -48,25 +48,27 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto cut = streamed(text, 7);
   require(whole.has_value() == cut.has_value() && (!whole || *whole == *cut));
 
-  for (const auto& stated : {reason::stated_policy(text), reason::stated_so_far(text)}) {
+  for (const auto& stated :
+       {language_model::stated_policy(text), language_model::stated_so_far(text)}) {
     require(!stated || saca::manoeuvre::index(*stated) < saca::manoeuvre::num_policies);
   }
 
-  static const auto situation = reason::example_situation();
-  static const std::string prompt = reason::scene_part(situation, std::nullopt, 0.0);
-  const reason::Truth truth =
-      reason::truth_of(text, prompt, situation, saca::manoeuvre::PolicyId::aes_left);
+  static const auto situation = language_model::example_situation();
+  static const std::string prompt = language_model::scene_part(situation, std::nullopt, 0.0);
+  const language_model::Truth truth =
+      language_model::truth_of(text, prompt, situation, saca::manoeuvre::PolicyId::aes_left);
   require(truth.wrong.size() <= static_cast<std::size_t>(truth.num_checked));
-  for (const reason::FalseStatement& each : truth.wrong) {
+  for (const language_model::FalseStatement& each : truth.wrong) {
     require(!each.why.empty() && each.text.size() <= 210);
   }
 
-  const auto event = reason::protocol::event_from(text);
+  const auto event = language_model::protocol::event_from(text);
   if (event.has_value()) {  // what was understood is said again in the same words
-    const std::string line = reason::protocol::line(event.value());
-    require(reason::protocol::line(reason::protocol::event_from(line).value()) == line);
+    const std::string line = language_model::protocol::line(event.value());
+    require(language_model::protocol::line(language_model::protocol::event_from(line).value()) ==
+            line);
   }
-  const auto replies = reason::parse_replies(text, "fuzz.json");
+  const auto replies = language_model::parse_replies(text, "fuzz.json");
   require(replies.has_value() || replies.error().message.rfind("fuzz.json: ", 0) == 0);
   return 0;
 }

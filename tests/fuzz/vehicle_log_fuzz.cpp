@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "saca/tune/fit_log.h"
+#include "saca/lab/tune/fit_log.h"
 
 // Whatever a log holds: it is refused with a message, or it is whole and comes back from its own
 // writing. A broken promise traps.

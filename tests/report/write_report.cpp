@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "saca/core/file.h"
-#include "saca/report/html_report.h"
+#include "saca/base/core/file.h"
+#include "saca/lab/report/html_report.h"
 
 int main(int argc, char** argv) {
   const std::string_view kind = argc == 4 ? argv[1] : "";

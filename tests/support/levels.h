@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/core/simd_level.h"
+#include "saca/base/core/simd_level.h"
 
 namespace saca::test {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "saca/core/clock.h"
+#include "saca/base/core/clock.h"
 
 namespace saca {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "saca/world/scene.h"
+#include "saca/base/world/scene.h"
 
 namespace saca::test {
 

@@ -15,17 +15,17 @@ SPEC.loader.exec_module(ctest_again)
 
 FILES = {
     "README.md": "words", "LICENSE": "words", "CMakeLists.txt": "project",
-    "data/harm.toml": "a = 1", "scenarios/one.toml": "s = 1", "saca/world/testdata/log.csv": "1",
-    "saca/world/scene.cpp": "int f();", "saca/world/scene_test.cpp": "int g();", "viewer/page.js": "let a",
+    "data/harm.toml": "a = 1", "scenarios/one.toml": "s = 1", "saca/base/world/testdata/log.csv": "1",
+    "saca/base/world/scene.cpp": "int f();", "saca/base/world/scene_test.cpp": "int g();", "viewer/page.js": "let a",
     "docs/formats.md": "format", "docs/glossary.md": "word", "docs/deep/one.md": "deep", "docs/deep/two.md": "deep",
     "tools/make.py": "PAGE = ROOT / 'docs' / 'deep'", "tools/other.sh": "echo",
     "tests/cli/first_test.py": "import program\nfrom second_test import line", "tests/cli/second_test.py": "import program",
     "tests/cli/third_test.py": "import helper  # reads ROOT / \"docs\" / \"formats.md\"", "tests/cli/program.py": "PROGRAM = 1",
     "tests/cli/helper.py": "open('other.py')", "tests/cli/other.py": "pass", "tests/page/page_test.py": "pages = 1",
-    "tests/page/conftest.py": "WRITER = 1", "tests/tools/all_test.py": "run(ROOT / 'tools/make.py', f'{ROOT}/saca/world/scene.cpp')",
+    "tests/page/conftest.py": "WRITER = 1", "tests/tools/all_test.py": "run(ROOT / 'tools/make.py', f'{ROOT}/saca/base/world/scene.cpp')",
     "third_party/models/choice.json": "q8",
     "build/p/saca": "\0program\0asks saca-model-host\0see docs/glossary.md for words\0", "build/p/saca-model-host": "\0runs the model\0",
-    "build/p/world_test": "\0data/harm.toml\0https://a.b/docs/deep/one.md\0saca/world/scene.cpp\0docs\x01",
+    "build/p/world_test": "\0data/harm.toml\0https://a.b/docs/deep/one.md\0saca/base/world/scene.cpp\0docs\x01",
     "build/p/reason_test": "\0docs/formats.md\0saca-model-host\0README.mdx\0", "build/p/all_docs_test": "\0docs\0",
     "build/p/writer": "\0viewer/\0"}
 TESTS = {"world": ["world_test"], "reason": ["reason_test"], "all_docs": ["all_docs_test"], "layers": ["/usr/bin/cmake", "-P", "x"],
@@ -75,14 +75,14 @@ ALL = PROGRAMS | CLI | {"page", "tools"}
 
 
 @pytest.mark.parametrize("file, again", [
-    ("saca/world/scene_test.cpp", set()),  # what is compiled is in programs' bytes
-    ("saca/world/scene.cpp", {"tools"}),  # a script names it
+    ("saca/base/world/scene_test.cpp", set()),  # what is compiled is in programs' bytes
+    ("saca/base/world/scene.cpp", {"tools"}),  # a script names it
     ("CMakeLists.txt", set()),
     ("LICENSE", set()),
     ("README.md", set()),
     ("data/harm.toml", ALL),
     ("scenarios/one.toml", ALL),
-    ("saca/world/testdata/log.csv", ALL),
+    ("saca/base/world/testdata/log.csv", ALL),
     ("viewer/page.js", {"page"}),  # its program names the folder
     ("docs/formats.md", {"reason", "all_docs", "cli.third"}),
     ("docs/glossary.md", {"all_docs"} | CLI),

@@ -14,7 +14,7 @@ def struct_brake(lines):
 
 
 def test_the_system_in_the_header_is_that_of_the_example():
-    header = (ROOT / "saca/reach/flow.h").read_text().splitlines()
+    header = (ROOT / "saca/lab/levelset/flow.h").read_text().splitlines()
     shown = struct_brake(line.removeprefix("///     ") for line in header if line.startswith("///     "))
     compiled = struct_brake((ROOT / "examples/own_dynamics/main.cpp").read_text().splitlines())
     assert shown == compiled

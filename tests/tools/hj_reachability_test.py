@@ -1,4 +1,4 @@
-"""The reference of saca/reach/air3d_reference_test.cpp: what its tool computes, and that the file belongs to it."""
+"""The reference of saca/lab/levelset/air3d_reference_test.cpp: what its tool computes, and that the file belongs to it."""
 import importlib.util
 import json
 import math

@@ -1,4 +1,4 @@
-"""The references of saca/vehicle/outside_test.cpp: where they come from, and that they belong together."""
+"""The references of saca/onboard/vehicle/outside_test.cpp: where they come from, and that they belong together."""
 import csv
 import importlib.util
 import pathlib

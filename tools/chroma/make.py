@@ -18,7 +18,7 @@ NUM_FOUND = 50
 MOST_ACTORS = 4  # in a vector
 ACTOR_KINDS = ["car", "van", "truck", "motorcycle", "bicycle", "pedestrian", "obstacle"]
 DILU_DIMENSIONS = 1536  # of the text embeddings that DiLu stores (OpenAI text-embedding-ada-002)
-# What makes a difference of about one (saca/memory/similarity.cpp), times this, is the spread of what is shifted.
+# What makes a difference of about one (saca/onboard/match/similarity.cpp), times this, is the spread of what is shifted.
 SHARE_OF_SCALE = 0.6
 LOG_GRIP_SCALE, SPEED_SCALE, ALONG_SCALE, ACROSS_SCALE, ACTOR_SPEED_SCALE = 0.15, 0.7, 6.0, 0.7, 3.5
 

@@ -1,4 +1,4 @@
-"""Mitchell's game air3D solved with hj_reachability (JAX): a reference for saca/reach, and a race against it.
+"""Mitchell's game air3D solved with hj_reachability (JAX): a reference for saca/lab/levelset, and a race against it.
 
 usage: make.py reference   writes data/reference/air3d_hj_reachability.json
        make.py time        prints times of both on the coarse grid, and their ratio, as JSON

@@ -3,7 +3,7 @@
 # whether each source includes what it needs. Sources of a folder are looked at as one, up to some thousand lines, because
 # most of the time goes into what they all include; where something is found, they are looked at again one by one, to
 # say where. What that can miss is a using-declaration that only another file of the folder uses. Sources that passed
-# are not looked at again until one of them, a header or the rules change. saca/train is left out: it needs libtorch.
+# are not looked at again until one of them, a header or the rules change. saca/lab/network_training is left out: it needs libtorch.
 #
 # usage: tools/lint/run.sh             everything, some minutes; notes the commit that passed in tools/lint/passed,
 #                                      which is to be committed once a day's worth of changes
@@ -61,7 +61,7 @@ lint_group() {  # SOURCE...: of one folder
 export -f tidy stands_alone lint_group
 
 of_library_and_programs() {
-  grep -E '^(saca/[a-z_]+|apps/saca)/[a-z0-9_]+\.(cpp|h)$' | grep -vE '^saca/train/|_(test|bench)\.cpp$|_for_test\.h$' || true
+  grep -E '^(saca/[a-z_/]+|apps/saca)/[a-z0-9_]+\.(cpp|h)$' | grep -vE '^saca/lab/network_training/|_(test|bench)\.cpp$|_for_test\.h$' || true
 }
 # Sources that differ from the commit that passed last, and those of headers that do. Everything where nobody
 # knows that commit.

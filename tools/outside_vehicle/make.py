@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""A second opinion on saca/vehicle: the models of commonroad-vehicle-models on the same drives.
+"""A second opinion on saca/onboard/vehicle: the models of commonroad-vehicle-models on the same drives.
 
-    make.py reference         writes saca/vehicle/testdata/outside_*.csv
-    make.py compare TRACES    prints what the test of saca/vehicle drove beside it, and draws
+    make.py reference         writes saca/onboard/vehicle/testdata/outside_*.csv
+    make.py compare TRACES    prints what the test of saca/onboard/vehicle drove beside it, and draws
                               docs/outside-models.png
     make.py causes            changes one thing at a time in the outside models, to see what it does
 Called by run.sh, which makes the Python environment.

@@ -24,7 +24,7 @@ WHEELS = ("front_radps", "rear_radps")
 
 @contextlib.contextmanager
 def our_tyre(tyre):
-    """Gives the package the law of saca/vehicle/tyre.h: one curve for both directions."""
+    """Gives the package the law of saca/onboard/vehicle/tyre.h: one curve for both directions."""
     def force(slip, angle, load):
         sliding = math.hypot(slip * math.cos(angle), math.sin(angle))
         if sliding < 1e-12:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the models of commonroad-vehicle-models, in a Python environment of its own (build/outside_vehicle).
 # usage: tools/outside_vehicle/run.sh [reference|compare|all]
-#   reference   writes saca/vehicle/testdata/outside_*.csv
+#   reference   writes saca/onboard/vehicle/testdata/outside_*.csv
 #   compare     builds and runs our test, prints the tables of docs/outside-models.md, draws its picture
 #   all         both (the default)
 # Needs the network at its first run, and tools/setup.sh. Versions and sha256: requirements.txt.

@@ -1,0 +1,58 @@
+#include "saca/lab/encounter/review.h"
+
+#include <chrono>
+#include <utility>
+
+#include "saca/thinking/language_model/reply.h"
+
+namespace saca::encounter {
+namespace {
+
+constexpr auto review_patience = std::chrono::minutes(2);
+constexpr int review_tokens = 256;  // three statements with their figures are about 130
+
+}  // namespace
+
+Result<std::optional<language_model::Review>> review(
+    const Setup& setup, const Record& record, const std::function<void(std::string_view)>& on_text,
+    const std::stop_token& stop) {
+  if (setup.model == nullptr || !record.decision || !record.hindsight || !record.best) {
+    return std::optional<language_model::Review>();
+  }
+  language_model::Aftermath aftermath{.done = record.decision->plan,
+                                      .result = record.result,
+                                      .met = record.met,
+                                      .best = *record.best};
+  for (const TimedSwitch& each : record.switches) {
+    aftermath.later.push_back(each.change.plan);
+  }
+  aftermath.known.scene_at_trigger = *record.at_trigger;
+  for (std::size_t k = 0; k < manoeuvre::num_policies; ++k) {
+    aftermath.known.facts[k] = (*record.hindsight)[k].facts;
+  }
+  if (record.decision->verdict) {
+    const auto* const judged = find_plan(*record.decision->verdict, record.decision->plan);
+    aftermath.forecast_harm = judged == nullptr ? std::nullopt : std::optional(judged->harm);
+  }
+  language_model::Review review{.prompt = language_model::review_prompt(aftermath)};
+  const auto hear = [&](const language_model::Progress& news) {
+    if (!news.text.empty()) {
+      on_text(news.text);
+    }
+  };
+  const auto replies = setup.model->ask({review.prompt}, setup.clock->now() + review_patience, hear,
+                                        {.stop = stop, .max_tokens = review_tokens});
+  if (!replies.has_value()) {
+    return replies.error();
+  }
+  if (stop.stop_requested()) {
+    return Error{Error::Code::too_late, "it was withdrawn"};
+  }
+  review.text = replies.value().front().reasoning;
+  review.truth = language_model::truth_of(language_model::finished_part(replies.value().front()),
+                                          review.prompt, aftermath.known, std::nullopt);
+  review.shown = language_model::explanation(review, aftermath);
+  return std::optional(std::move(review));
+}
+
+}  // namespace saca::encounter

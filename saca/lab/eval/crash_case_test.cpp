@@ -1,0 +1,105 @@
+#include "saca/lab/eval/crash_case.h"
+
+#include <gmock/gmock.h>
+
+#include "saca/lab/eval/crash_search.h"
+#include "saca/lab/eval/decision_point.h"
+#include "saca/lab/eval/scenes_for_test.h"
+
+namespace saca::eval::crash_case_test {
+namespace {
+
+using testing::HasSubstr;
+
+/// One of a family, as the search finds it, judged by hand.
+CrashCase example() {
+  static const families::Family family = [] {
+    families::Family slower = families::load_family("scenarios/families", "slower_lead").value();
+    slower.name = "fars_2016_40001";
+    return slower;
+  }();
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const CrashFound found =
+      find_crash(family, std::nullopt, 3, "compact_rwd_ev", car, shipped_harm(), 5);
+  CrashCase one{
+      .record =
+          {.study = "FARS", .name = family.name, .state = "Arizona", .year = 2016, .number = 40001},
+      .family = "rear_end",
+      .place = "highway",
+      .facts = {{"ego", "TRAV_SP", 45, "45 mph"}, {"crash", "LGT_COND", std::nullopt, "not known"}},
+      .kind = "slower_lead",
+      .seed = 3,
+      .sample = found.sample,
+      .grip = found.scenario.grip,
+      .without = found.as_written.contact,
+      .as_recorded = true,
+      .impact_agrees = true};
+  for (const auto& [key, range] : family.ranges) {
+    one.ranges.push_back({key, range.min, range.max, range.source});
+  }
+  one.judged.one.scene = scene_at(found.scenario, car, found.as_written.time);
+  one.judged.one.plan = manoeuvre::Plan{.policy = manoeuvre::PolicyId::aeb, .strength = 0.6};
+  one.judged.plans = {{one.judged.one.plan, 0.25, 0.5, true}, {{}, 0.5, 1.0, false}};
+  one.judged.admissible_harm = 0.252;
+  one.judged.speaks_for = one.judged.one.plan;
+  one.judged.happened[0] =
+      PolicyOverDraws{.plan = one.judged.one.plan, .harm = {0.2, 0.1, 0.3}, .contact = 0.75};
+  return one;
+}
+
+TEST(CrashCase, ComesBackFromItsLineToTheLastBit) {
+  const CrashCase one = example();
+  const std::string text = crash_cases_text(std::vector{one, one});
+  const auto read = crash_cases_from_text(text, "cases.jsonl");
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  ASSERT_EQ(read.value().size(), 2U);
+  EXPECT_EQ(to_json(read.value()[1]), to_json(one));
+  EXPECT_EQ(crash_cases_text(read.value()), text);
+}
+
+TEST(CrashCase, IsDrawnAgainAsItWas) {
+  const CrashCase one = example();
+  const auto again = drawn_again(one, "compact_rwd_ev", scenario::standard_ego);
+  ASSERT_TRUE(again.has_value()) << again.error().message;
+  EXPECT_EQ(again.value().scenario.grip, one.grip);
+  EXPECT_EQ(std::get<scenario::EgoStart>(again.value().scenario.ego).speed,
+            one.judged.one.scene.ego.v_B.x);
+}
+
+TEST(CrashCase, OfARecordingIsNotDrawn) {
+  CrashCase one = example();
+  one.kind = std::nullopt;
+  EXPECT_THAT(drawn_again(one, "compact_rwd_ev", scenario::standard_ego).error().message,
+              HasSubstr("got a recording"));
+  one.kind = "no_such";
+  EXPECT_THAT(drawn_again(one, "compact_rwd_ev", scenario::standard_ego).error().message,
+              HasSubstr("unknown kind no_such"));
+  one = example();
+  std::erase_if(one.ranges, [](const RecordRange& range) { return range.key == "grip"; });
+  EXPECT_THAT(drawn_again(one, "compact_rwd_ev", scenario::standard_ego).error().message,
+              HasSubstr("want one for grip"));
+}
+
+std::string complaint(const std::string& from, const std::string& to) {
+  std::string text = crash_cases_text(std::vector{example()});
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const auto read = crash_cases_from_text(text, "c.jsonl");
+  return read.has_value() ? "" : read.error().message;
+}
+
+TEST(CrashCase, RefusesWhatIsNoLineOfOne) {
+  EXPECT_THAT(complaint("saca.crash_cases/1", "saca.cases/1"),
+              HasSubstr("c.jsonl: line 1: schema"));
+  EXPECT_THAT(complaint("\"cases\":1", "\"cases\":2"), HasSubstr("want 2 cases, as line 1 says"));
+  EXPECT_THAT(complaint("\"family\":", "\"kin\":"), HasSubstr("line 2: family: is missing"));
+  EXPECT_THAT(complaint("\"ego_face\":\"front\"", "\"ego_face\":\"top\""),
+              HasSubstr("want front, left, right or rear"));
+  EXPECT_THAT(complaint("\"name\":\"AEB\"", "\"name\":\"NI\""),
+              HasSubstr("name: want the policy's"));
+  EXPECT_THAT(complaint("\"best_policy\":0", "\"best_policy\":9"), HasSubstr("best_policy"));
+}
+
+}  // namespace
+}  // namespace saca::eval::crash_case_test

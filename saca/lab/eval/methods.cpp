@@ -1,0 +1,499 @@
+#include "saca/lab/eval/methods.h"
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <utility>
+
+#include "saca/base/core/contract.h"
+#include "saca/base/world/time_to_conflict.h"
+#include "saca/lab/encounter/saca_method.h"
+#include "saca/lab/eval/at_trigger.h"
+#include "saca/lab/eval/danger_choice.h"
+#include "saca/lab/eval/driver_models.h"
+#include "saca/lab/eval/rss.h"
+#include "saca/onboard/match/similarity.h"
+#include "saca/thinking/arbitration/forecaster.h"
+#include "saca/thinking/arbitration/verdict_memo.h"
+#include "saca/thinking/preview/drawn_motions.h"
+#include "saca/thinking/preview/expected_harm.h"
+#include "saca/thinking/preview/preview.h"
+
+namespace saca::eval {
+namespace {
+
+using encounter::Action;
+using encounter::Method;
+using encounter::View;
+using manoeuvre::full_braking;
+using manoeuvre::Plan;
+using manoeuvre::PolicyId;
+using preview::JointMotion;
+using preview::Physics;
+
+constexpr std::array<MethodInfo, 40> infos{{
+    {"saca", "SACA",
+     "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
+     "speaks "
+     "for; supervised to the end."},
+    {"saca_no_memory", "SACA without memory", "As SACA; no stored case is asked.", false,
+     Needs::memory},
+    {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
+     Needs::model},
+    {"saca_untuned", "SACA with a model without fine-tuning",
+     "As SACA; the language model is asked as it was before it was taught.", false, Needs::untuned},
+    {"saca_unaware", "SACA without scenario awareness",
+     "As SACA; no intention is recognised, so that all are taken to go on as they do, and no risk "
+     "(V_h) stands in prompts."},
+    {"saca_no_reach", "SACA without reachability",
+     "As SACA; the language model is not told how dangerous each road user is (V_h), which nothing "
+     "else that SACA decides by asks.",
+     false, Needs::model},
+    {"saca_no_cues", "SACA, cues not reckoned with",
+     "As SACA; it reckons only with who is seen, whatever the place."},
+    {"saca_at_t1", "SACA, never before T1",
+     "As SACA; it waits for T1 even where waiting is expected to cost harm."},
+    {"saca_full_braking", "SACA, braking with one strength",
+     "As SACA; who brakes does so with all the grip."},
+    {"saca_paper", "SACA, as in the paper",
+     "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
+     "is held against braking."},
+    {"saca_paper_at_once", "The same, first answers only",
+     "As saca_paper; the language model's answer right after the prompt, before it writes a word.",
+     false, Needs::model},
+    {"saca_paper_untuned", "Algorithm 1, model without fine-tuning",
+     "As saca_paper; the language model is asked as it was before it was taught.", false,
+     Needs::untuned},
+    {"saca_paper_unaware", "Algorithm 1 without scenario awareness",
+     "As saca_paper; no intention is recognised, and no risk (V_h) stands in prompts."},
+    {"saca_paper_no_facts", "The same, without our facts",
+     "As saca_paper; nothing that was computed about the manoeuvres stands in the prompt.", false,
+     Needs::model},
+    {"saca_paper_no_facts_at_once", "The same, first answers only",
+     "As saca_paper_no_facts; the answer right after the prompt.", false, Needs::model},
+    {"nothing", "No intervention", "Lane and speed are kept, whatever comes."},
+    {"aeb", "AEB at T1", "Full braking as soon as the conflict is within T1 = 1.3 s."},
+    {"r157", "Braking rule of UN R157",
+     "Brakes with 6 m/s2, 0.35 s after the time to collision falls below what UN R157, 5.2.5.2, "
+     "asks for."},
+    {"cc_driver", "Competent driver of UN R157",
+     "The careful driver of UN R157, Annex 3: sees at 2 s to collision, brakes 0.75 s later with "
+     "up to 0.774 g."},
+    {"fsm", "Fuzzy safety model",
+     "JRC's fuzzy safety model: brakes as hard as its two fuzzy distances say, 0.75 s after they "
+     "call for it."},
+    {"rss", "RSS, braking",
+     "Brakes as long as the distances of responsibility-sensitive safety are not kept."},
+    {"rss_steering", "RSS, braking or steering",
+     "As RSS; where braking comes too late, changes to a neighbouring lane in which the distances "
+     "are kept."},
+    {"imitation", "Imitation learning",
+     "At T1, what a small network says that was shown scenes of the tuning split and what was best "
+     "in them, with the compact car; it forecasts nothing.",
+     false, Needs::imitator},
+    {"random", "Any of the eight", "One of the eight at T1, all alike likely."},
+    {"first_forecast", "Best of the first forecast",
+     "The best plan of the forecast made when somebody first threatens, some 4 s before T1."},
+    {"newest_forecast", "Best of the newest forecast",
+     "The best plan of that forecast, of those made last before T1, which is most like the scene "
+     "at T1."},
+    {"going_on_atlas", "Best of eight, others going on",
+     "At T1, by the atlas, as if all others went on as they do."},
+    {"beliefs_atlas", "Best of eight in expectation, atlas",
+     "At T1, by the atlas: least expected harm over what the others are believed to intend."},
+    {"beliefs_rolled_out", "Best of eight in expectation, rolled out",
+     "The same with full dynamics and all that follows a contact."},
+    {"beliefs_drawn", "Best of eight in expectation over draws",
+     "The same over draws of what the others intend, how far they drift and how well they are "
+     "seen."},
+    {"least_danger", "The least Q_h",
+     "At T1, the plan after half a second of which V_h, learnt, is least: the highest of all who "
+     "are "
+     "ahead, each by itself, going on as they do.",
+     false, Needs::danger},
+    {"least_joint_danger", "The least Q_h beside all",
+     "As least_danger, by V_h beside the three most dangerous together.", false, Needs::danger},
+    {"beliefs_and_danger", "Best of eight in expectation, ties by Q_h",
+     "As beliefs_atlas; of those that harm as little by all that forecasts can tell, the plan of "
+     "the least joint Q_h.",
+     false, Needs::danger},
+    {"beliefs_and_experience", "The same, corrected by what was met",
+     "As beliefs_drawn; what happened in like cases, minus what had been expected of them, is "
+     "added.",
+     false, Needs::memory},
+    {"beliefs_and_grip", "The same, told the grip and the car",
+     "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
+    {"beliefs_and_followers", "The same, told how followers react",
+     "As beliefs_rolled_out, told how those behind will truly react.", true},
+    {"beliefs_and_hidden", "The same, seeing everybody",
+     "As beliefs_rolled_out, from the true scene: without noise and latency, hidden road users "
+     "included.",
+     true},
+    {"true_atlas", "Best of eight, true motion, atlas",
+     "At T1, by the atlas, told how the others will truly move.", true},
+    {"true_rolled_out", "Best of eight, true motion, rolled out",
+     "At T1, with full dynamics, told how the others will truly move; not the grip, nor the real "
+     "car.",
+     true},
+    {"oracle", "Best in hindsight", "At T1, told everything.", true},
+}};
+
+/// The situations forecast at one instant, and which of them is most like the scene now.
+Action best_of_forecast(const world::Scene& then, const intent::Beliefs& beliefs, const View& now,
+                        const runtime::PlanesSetup& setup) {
+  const auto situations = preview::situations(then, beliefs, setup.thresholds, setup.forecast);
+  if (situations.empty()) {
+    return {.plan = full_braking, .source = "fallback", .reason = "nothing was forecast"};
+  }
+  const auto likeness = [&](const preview::Situation& one) {
+    return match::similarity(one.scene_at_trigger, now.scene);
+  };
+  const auto most_alike =
+      std::max_element(situations.begin(), situations.end(),
+                       [&](const auto& a, const auto& b) { return likeness(a) < likeness(b); });
+  const PolicyId best = preview::best_by_forecast(most_alike->facts);
+  return {.plan = most_alike->facts[manoeuvre::index(best)].plan, .source = "forecast"};
+}
+
+/// Keeps the scene of the first or the newest round of forecasts, and asks for its forecasts when
+/// they are needed: they depend on nothing that comes later.
+class ByForecast final : public Method {
+ public:
+  enum class Which : std::uint8_t { first, newest };
+  ByForecast(const runtime::PlanesSetup& setup, Which which)
+      : setup_(setup),
+        which_(which),
+        at_trigger_(setup.thresholds, [this](const View& view) { return choose(view); }) {}
+
+  [[nodiscard]] std::optional<Action> step(const View& view) override {
+    auto action = at_trigger_.step(view);
+    if (!action && view.driven) {
+      remember(view);
+    }
+    return action;
+  }
+
+ private:
+  [[nodiscard]] Action choose(const View& view) const {
+    return scene_
+               ? best_of_forecast(*scene_, beliefs_, view, setup_)
+               : Action{
+                     .plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
+  }
+  void remember(const View& view) {
+    constexpr double round = 0.2;  // [s], as the thinking plane's
+    if (!scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round)) {
+      scene_ = view.scene;
+      beliefs_ = view.beliefs;
+    }
+  }
+
+  runtime::PlanesSetup setup_;
+  Which which_;
+  AtTrigger at_trigger_;
+  std::optional<world::Scene> scene_;
+  intent::Beliefs beliefs_;
+};
+
+class Nothing final : public Method {
+  [[nodiscard]] std::optional<Action> step(const View&) override { return std::nullopt; }
+};
+
+std::vector<JointMotion> believed(const View& view) {
+  return preview::joint_motions(view.scene, view.beliefs, intent::MotionLaw{});
+}
+
+Action least_expected(const world::Scene& scene, std::span<const JointMotion> motions,
+                      const runtime::PlanesSetup& setup, Physics physics) {
+  return {.plan = preview::least_harmful(
+              preview::expected_harms(scene, motions, setup.forecast, physics)),
+          .source = "forecast"};
+}
+
+/// Over draws of all that is not known of the others.
+std::vector<preview::ExpectedHarm> expected_over_draws(const View& view,
+                                                       const runtime::PlanesSetup& setup) {
+  return preview::expected_harms(view.scene, arbitration::draws_of(view.scene, view.beliefs),
+                                 setup.forecast, Physics::rolled_out);
+}
+
+/// How the others will truly move while the ego goes on.
+JointMotion true_motion(const encounter::ClosedLoop& truth, const world::Scene& scene) {
+  manoeuvre::EgoMotion ego;
+  ego.track = {.start = scene.time, .step = 0.01, .X_WA = {}};
+  for (int k = 0; k <= 1'000; ++k) {
+    ego.track.X_WA.push_back(world::ego_going_on(scene, 0.01 * k));
+    ego.v_B.push_back(scene.ego.v_B);
+    ego.yaw_rate.push_back(scene.ego.yaw_rate);
+  }
+  return {.probability = 1.0, .tracks = truth.truth().others()(ego)};
+}
+
+/// As preview::expected_harms rolled out, but with how the others move and react, grip and car
+/// given.
+Action least_tried(const world::Scene& scene, std::span<const JointMotion> motions,
+                   const std::function<collision::Others(const JointMotion&)>& others, double grip,
+                   const manoeuvre::ParameterPerturbation& perturbation,
+                   const runtime::PlanesSetup& setup) {
+  const auto plans = forecast::all_plans(scene.ego.v_B.x);
+  std::vector<preview::ExpectedHarm> all(plans.size());
+  for (const JointMotion& motion : motions) {
+    const collision::Others moved = others(motion);
+    std::vector<rollout::Attempt> attempts;
+    attempts.reserve(plans.size());
+    for (const Plan& plan : plans) {
+      attempts.push_back({plan, &scene, &moved, grip, perturbation});
+    }
+    const auto tried = preview::tried(*setup.forecast.car, attempts, *setup.forecast.harm);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      all[i].plan = plans[i];
+      all[i].add(tried[i].facts, motion.probability);
+    }
+  }
+  return {.plan = preview::least_harmful(all), .source = "forecast"};
+}
+
+/// Where somebody of one scene stands in another; nullopt: nowhere.
+std::optional<std::size_t> index_of(const world::Actor& actor, const world::Scene& scene) {
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    if (scene.actors[i].kind == actor.kind && scene.actors[i].id == actor.id) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// What is believed of all but the followers, who do what they truly will.
+collision::Others with_true_followers(const View& view, const JointMotion& motion) {
+  const world::Scene cast = view.truth.truth().whole_scene();
+  std::vector<std::pair<std::size_t, std::size_t>> known;  // in the scene, in the cast
+  for (const std::size_t i : reflex::followers_of(view.scene)) {
+    if (const auto k = index_of(view.scene.actors[i], cast)) {
+      known.emplace_back(i, *k);
+    }
+  }
+  return [tracks = motion.tracks, known,
+          others = view.truth.truth().others()](const manoeuvre::EgoMotion& ego) {
+    std::vector<world::Track> moved = tracks;
+    const std::vector<world::Track> truly = others(ego);
+    for (const auto& [i, k] : known) {
+      moved[i] = truly[k];
+    }
+    return moved;
+  };
+}
+
+/// The planes of one of SACA's rows.
+runtime::PlanesSetup planes_of(std::string_view name, const MethodTools& tools) {
+  runtime::PlanesSetup planes = tools.saca;
+  planes.guard = name.starts_with("saca_paper") ? reflex::Guard::none
+                                                : reflex::Guard::never_worse_than_braking;
+  planes.asking = {.facts = name.find("_no_facts") == std::string_view::npos,
+                   .risks = !name.ends_with("_unaware") && name != "saca_no_reach",
+                   .reasoning = !name.ends_with("_at_once")};
+  if (name == "saca_full_braking") {
+    planes.forecast.braking = forecast::Braking::full;
+    planes.judge = {};  // that of `tools` judges other plans
+  }
+  if (name == "saca_no_cues") {
+    planes.forecast.cues = nullptr;
+    planes.judge = {};  // that of `tools` reckons with them
+  }
+  if (name == "saca_at_t1") {
+    planes.thresholds.waiting_cost.reset();
+  }
+  planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
+  planes.model = name == "saca_no_model" ? nullptr : planes.model;
+  if (find_method(name)->needs == Needs::untuned) {
+    planes.model = tools.untuned;
+  }
+  return planes;
+}
+
+/// Who recognises no intentions: nothing was learnt.
+const intent::Model& intentions_of(std::string_view name, const MethodTools& tools) {
+  static const intent::Model none;
+  return name.ends_with("_unaware") ? none : *tools.intent;
+}
+
+AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
+  const runtime::PlanesSetup& setup = tools.saca;
+  if (name == "aeb") {
+    return [](const View&) { return Action{.plan = full_braking}; };
+  }
+  if (name == "random") {
+    return [rng = std::mt19937_64(tools.seed)](const View& view) mutable {
+      const auto policy = manoeuvre::all_policies[std::uniform_int_distribution<std::size_t>(
+          0, manoeuvre::num_policies - 1)(rng)];
+      return Action{.plan = manoeuvre::default_plan(policy, view.scene.ego.v_B.x)};
+    };
+  }
+  if (name == "imitation") {
+    return [imitator = tools.imitator](const View& view) {
+      return Action{
+          .plan = manoeuvre::default_plan(imitator->choice(view.scene), view.scene.ego.v_B.x)};
+    };
+  }
+  if (name == "going_on_atlas") {
+    return [setup](const View& view) {
+      const JointMotion motion = preview::all_going_on(view.scene);
+      return least_expected(view.scene, {&motion, 1}, setup, Physics::atlas);
+    };
+  }
+  if (name == "beliefs_atlas" || name == "beliefs_rolled_out") {
+    const Physics physics = name == "beliefs_atlas" ? Physics::atlas : Physics::rolled_out;
+    return [setup, physics](const View& view) {
+      return least_expected(view.scene, believed(view), setup, physics);
+    };
+  }
+  if (name == "least_danger" || name == "least_joint_danger") {
+    const Beside beside = name == "least_danger" ? Beside::each : Beside::all;
+    return [setup, network = tools.danger, beside](const View& view) {
+      const manoeuvre::Car& car = *setup.forecast.car;
+      return Action{.plan = of_least_danger(view.scene, drivable_plans(car, view.scene), car,
+                                            *network, beside),
+                    .source = "danger"};
+    };
+  }
+  if (name == "beliefs_and_danger") {
+    return [setup, network = tools.danger](const View& view) {
+      const auto plans = admissible_plans(
+          preview::expected_harms(view.scene, believed(view), setup.forecast, Physics::atlas));
+      return Action{
+          .plan = of_least_danger(view.scene, plans, *setup.forecast.car, *network, Beside::all),
+          .source = "danger"};
+    };
+  }
+  if (name == "beliefs_drawn") {
+    return [setup](const View& view) {
+      return Action{.plan = preview::least_harmful(expected_over_draws(view, setup)),
+                    .source = "forecast"};
+    };
+  }
+  if (name == "beliefs_and_experience") {
+    return [setup, experience = tools.experience](const View& view) {
+      auto all = expected_over_draws(view, setup);
+      const memory::Corrections corrections = experience->corrections(view.scene);
+      for (preview::ExpectedHarm& one : all) {
+        one.harm = std::max(0.0, one.harm + corrections[manoeuvre::index(one.plan.policy)]);
+      }
+      return Action{.plan = preview::least_harmful(all), .source = "forecast"};
+    };
+  }
+  if (name == "beliefs_and_grip") {
+    return [setup](const View& view) {
+      return least_tried(
+          view.scene, believed(view),
+          [&](const JointMotion& motion) {
+            return reflex::with_reacting_followers(view.scene, motion.tracks);
+          },
+          view.truth.truth().grip(), view.truth.truth().perturbation_from_now(), setup);
+    };
+  }
+  if (name == "beliefs_and_followers") {
+    return [setup](const View& view) {
+      return least_tried(
+          view.scene, believed(view),
+          [&](const JointMotion& motion) { return with_true_followers(view, motion); },
+          view.scene.grip, {}, setup);
+    };
+  }
+  if (name == "beliefs_and_hidden") {
+    return [setup, intent = tools.intent](const View& view) {
+      world::Scene scene = view.truth.truth().whole_scene();
+      scene.grip = view.scene.grip;
+      scene.ego_mass = view.scene.ego_mass;
+      intent::Beliefs beliefs = intent::beliefs_at_sight(*intent, scene);
+      for (std::size_t i = 0; i < scene.actors.size(); ++i) {  // what is believed of whom it knows
+        if (const auto k = index_of(scene.actors[i], view.scene)) {
+          beliefs[i] = view.beliefs[*k];
+        }
+      }
+      return least_expected(scene, preview::joint_motions(scene, beliefs, intent::MotionLaw{}),
+                            setup, Physics::rolled_out);
+    };
+  }
+  if (name == "true_atlas") {
+    return [setup](const View& view) {
+      world::Scene scene = view.truth.truth().whole_scene();
+      scene.grip = view.scene.grip;
+      const JointMotion motion = true_motion(view.truth, scene);
+      return least_expected(scene, {&motion, 1}, setup, Physics::atlas);
+    };
+  }
+  if (name == "true_rolled_out") {
+    return [setup](const View& view) {
+      const auto tried =
+          try_all(view.truth, *setup.forecast.car, *setup.forecast.harm, Knowledge::motions);
+      return Action{.plan = tried[best_of(tried)].facts.plan};
+    };
+  }
+  if (name == "oracle") {
+    return [hindsight = tools.hindsight](const View& view) {
+      const auto& tried = hindsight->at(view.truth);
+      return Action{.plan = tried[best_of(tried)].facts.plan};
+    };
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const MethodInfo> methods() {
+  return infos;
+}
+
+const MethodInfo* find_method(std::string_view name) {
+  const auto* const found = std::find_if(infos.begin(), infos.end(),
+                                         [&](const MethodInfo& info) { return info.name == name; });
+  return found == infos.end() ? nullptr : found;
+}
+
+runtime::PlanesSetup with_shared_verdicts(runtime::PlanesSetup saca) {
+  saca.judge = arbitration::memoised(saca.judge ? std::move(saca.judge)
+                                                : arbitration::judge_with(saca.forecast));
+  return saca;
+}
+
+std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& tools) {
+  expects(find_method(name) != nullptr, "a method of methods()");
+  expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
+  expects(find_method(name)->needs != Needs::danger || tools.danger != nullptr,
+          "V_h is given to who chooses by it");
+  expects(find_method(name)->needs != Needs::imitator || tools.imitator != nullptr,
+          "the network is given to who asks it");
+  expects(find_method(name)->needs != Needs::untuned || tools.untuned != nullptr,
+          "a model is given to who asks another one");
+  expects(name != "beliefs_and_experience" || tools.experience != nullptr,
+          "experience is given to who is corrected by it");
+  const runtime::PlanesSetup& setup = tools.saca;
+  if (name.starts_with("saca")) {
+    return std::make_unique<encounter::SacaMethod>(planes_of(name, tools),
+                                                   intentions_of(name, tools));
+  }
+  if (name == "nothing") {
+    return std::make_unique<Nothing>();
+  }
+  if (name == "first_forecast" || name == "newest_forecast") {
+    return std::make_unique<ByForecast>(
+        setup, name == "first_forecast" ? ByForecast::Which::first : ByForecast::Which::newest);
+  }
+  if (name == "r157") {
+    return std::make_unique<R157Braking>();
+  }
+  if (name == "cc_driver") {
+    return std::make_unique<CompetentDriver>();
+  }
+  if (name == "fsm") {
+    return std::make_unique<FuzzySafety>();
+  }
+  if (name == "rss" || name == "rss_steering") {
+    return std::make_unique<Rss>(name == "rss" ? Rss::Response::braking
+                                               : Rss::Response::braking_or_steering);
+  }
+  AtTrigger::Choose choose = chooser(name, tools);
+  expects(choose != nullptr, "every method has a way to choose");
+  return std::make_unique<AtTrigger>(setup.thresholds, std::move(choose));
+}
+
+}  // namespace saca::eval

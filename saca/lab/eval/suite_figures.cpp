@@ -1,0 +1,267 @@
+#include "saca/lab/eval/suite_figures.h"
+
+#include <algorithm>
+#include <iterator>
+#include <random>
+
+#include "saca/base/core/contract.h"
+#include "saca/base/core/percentile.h"
+#include "saca/lab/scenario/chance.h"
+#include "saca/onboard/collision/ordering.h"
+
+namespace saca::eval {
+namespace {
+
+using manoeuvre::PolicyId;
+
+/// Which encounters each bootstrap sample holds, and how often.
+class Bootstrap {
+ public:
+  Bootstrap(std::size_t count, std::uint64_t seed) : count_(count) {
+    constexpr std::size_t num_samples = 1'000;
+    std::mt19937_64 rng = scenario::generator(seed, count);
+    std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(count - 1));
+    drawn_.resize(num_samples * count);
+    for (std::uint32_t& each : drawn_) {
+      each = any(rng);
+    }
+  }
+
+  /// Mean of `values` over the encounters that have one.
+  [[nodiscard]] Estimate mean(const std::vector<std::optional<double>>& values) const;
+
+ private:
+  std::size_t count_;
+  std::vector<std::uint32_t> drawn_;  ///< one row of encounters for each sample
+};
+
+Estimate Bootstrap::mean(const std::vector<std::optional<double>>& values) const {
+  expects(values.size() == count_, "one value for each encounter");
+  std::vector<double> value(count_);
+  std::vector<double> there(count_);
+  double sum = 0.0;
+  double n = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    value[i] = values[i].value_or(0.0);
+    there[i] = values[i] ? 1.0 : 0.0;
+    sum += value[i];
+    n += there[i];
+  }
+  if (n == 0.0) {
+    return {};
+  }
+  std::vector<double> means;
+  for (auto row = drawn_.begin(); row != drawn_.end(); row += static_cast<std::ptrdiff_t>(count_)) {
+    double sample_sum = 0.0;
+    double sample_n = 0.0;
+    for (auto i = row; i != row + static_cast<std::ptrdiff_t>(count_); ++i) {
+      sample_sum += value[*i];
+      sample_n += there[*i];
+    }
+    if (sample_n > 0.0) {
+      means.push_back(sample_sum / sample_n);
+    }
+  }
+  return {.value = sum / n,
+          .low = percentile(means, 0.025),
+          .high = percentile(means, 0.975),
+          .n = static_cast<int>(n)};
+}
+
+/// What of a row a figure is the mean of; nullopt: the row does not count for it.
+using Measure = std::optional<double> (*)(const SuiteRow& row, std::size_t method,
+                                          std::optional<std::size_t> aeb);
+
+const MethodRun& run_of(const SuiteRow& row, std::size_t method) {
+  return row.risk.runs[method];
+}
+
+std::optional<double> over_aeb(const SuiteRow& row, std::size_t method,
+                               std::optional<std::size_t> aeb) {
+  return aeb ? std::optional(run_of(row, method).harm - run_of(row, *aeb).harm) : std::nullopt;
+}
+
+/// Nobody is harmed if nothing is done.
+bool is_quiet(const Comparison& comparison) {
+  return std::any_of(comparison.tried.begin(), comparison.tried.end(), [](const TriedPlan& tried) {
+    return tried.plan.policy == PolicyId::no_intervention && tried.harm &&
+           collision::harm_class(*tried.harm) == 0.0;
+  });
+}
+
+std::optional<double> flag(bool holds) {
+  return holds ? 1.0 : 0.0;
+}
+
+void add(std::optional<encounter::ThinkingFigures>& sum, const encounter::ThinkingFigures& one) {
+  encounter::ThinkingFigures& all = sum ? *sum : sum.emplace();
+  for (const auto part :
+       {&encounter::ThinkingFigures::forecasts, &encounter::ThinkingFigures::recalled,
+        &encounter::ThinkingFigures::from_memory, &encounter::ThinkingFigures::from_model,
+        &encounter::ThinkingFigures::asked, &encounter::ThinkingFigures::answered,
+        &encounter::ThinkingFigures::ended, &encounter::ThinkingFigures::statements,
+        &encounter::ThinkingFigures::false_statements, &encounter::ThinkingFigures::unfounded}) {
+    all.*part += one.*part;
+  }
+}
+
+/// What was expected at the decision, where that was made at T1.
+const encounter::ExpectedAtDecision* expected_at_trigger(const SuiteRow& row, std::size_t method) {
+  constexpr double same_instant = 0.005;  // [s]: half a look
+  const auto& thinking = run_of(row, method).thinking;
+  const bool counts = thinking && thinking->expected && row.risk.trigger &&
+                      std::abs(thinking->expected->time - *row.risk.trigger) < same_instant;
+  return counts ? &*thinking->expected : nullptr;
+}
+
+/// Whether there was more than one plan to choose from.
+std::optional<double> had_several(const SuiteRow& row, std::size_t method,
+                                  std::optional<std::size_t> /*aeb*/) {
+  const auto& thinking = run_of(row, method).thinking;
+  return thinking && thinking->expected ? flag(thinking->expected->num_admissible > 1)
+                                        : std::nullopt;
+}
+
+/// One of its figures, where it counts.
+template <double encounter::ExpectedAtDecision::*harm>
+std::optional<double> expectation(const SuiteRow& row, std::size_t method,
+                                  std::optional<std::size_t> /*aeb*/) {
+  const auto* const told = expected_at_trigger(row, method);
+  return told != nullptr ? std::optional(told->*harm) : std::nullopt;
+}
+
+/// What happens to a plan with full knowledge: the tried one of its policy that is most like it.
+std::optional<double> happened(const Comparison& comparison, const manoeuvre::Plan& plan) {
+  const TriedPlan* const tried = manoeuvre::most_like<TriedPlan>(comparison.tried, plan);
+  return tried == nullptr ? std::nullopt : tried->harm;
+}
+
+MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
+                         std::size_t method, std::optional<std::size_t> aeb,
+                         const Bootstrap& bootstrap) {
+  const auto mean = [&](const Measure measure) {
+    std::vector<std::optional<double>> values;
+    for (const SuiteRow* const row : rows) {
+      values.push_back(measure(*row, method, aeb));
+    }
+    return bootstrap.mean(values);
+  };
+  MethodFigures figures{.method = name};
+  using Row = const SuiteRow&;
+  using Aeb = std::optional<std::size_t>;
+  figures.harm =
+      mean([](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
+  figures.regret = mean([](Row row, std::size_t m, Aeb) {
+    return std::optional(run_of(row, m).harm - row.risk.best_harm);
+  });
+  figures.published_regret = mean([](Row row, std::size_t m, Aeb) {
+    return std::optional(run_of(row, m).harm - row.risk.published_best_harm);
+  });
+  figures.over_aeb = mean(over_aeb);
+  figures.collision_loss = mean(
+      [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });
+  figures.contact =
+      mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
+  figures.right = mean([](Row row, std::size_t m, Aeb) {
+    return flag(collision::harm_class(run_of(row, m).harm) <=
+                collision::harm_class(row.risk.best_harm));
+  });
+  figures.worse_than_aeb = mean([](Row row, std::size_t m, Aeb reference) {
+    const auto more = over_aeb(row, m, reference);
+    return more ? flag(*more > material) : std::nullopt;
+  });
+  figures.needless = mean([](Row row, std::size_t m, Aeb) {
+    return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
+  });
+  figures.switches = mean([](Row row, std::size_t m, Aeb) {
+    return std::optional(static_cast<double>(run_of(row, m).switches));
+  });
+  const bool decides = std::any_of(rows.begin(), rows.end(), [&](const SuiteRow* row) {
+    return expected_at_trigger(*row, method) != nullptr;
+  });
+  if (decides) {
+    figures.expected.emplace();
+    figures.expected->expected = mean(expectation<&encounter::ExpectedAtDecision::harm>);
+    figures.expected->happened = mean([](Row row, std::size_t m, Aeb) {
+      const auto* const told = expected_at_trigger(row, m);
+      return told != nullptr ? happened(row.risk, told->plan) : std::nullopt;
+    });
+    figures.expected->braking_expected =
+        mean(expectation<&encounter::ExpectedAtDecision::braking_harm>);
+    figures.expected->braking_happened = mean([](Row row, std::size_t m, Aeb) {
+      return expected_at_trigger(row, m) != nullptr ? happened(row.risk, manoeuvre::full_braking)
+                                                    : std::nullopt;
+    });
+    figures.expected->knowingly_worse = mean([](Row row, std::size_t m, Aeb) {
+      const auto* const told = expected_at_trigger(row, m);
+      return told != nullptr ? flag(told->harm > told->braking_harm + material) : std::nullopt;
+    });
+    figures.expected->several = mean(had_several);
+  }
+  const bool twins = std::any_of(rows.begin(), rows.end(),
+                                 [](const SuiteRow* row) { return row->twin.has_value(); });
+  if (twins) {
+    figures.false_trigger_loss = mean([](Row row, std::size_t m, Aeb) {
+      return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
+    });
+    figures.false_triggers = mean([](Row row, std::size_t m, Aeb) {
+      return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
+    });
+  }
+  for (const SuiteRow* const row : rows) {
+    const MethodRun& run = run_of(*row, method);
+    figures.faults += run.fault.empty() ? 0 : 1;
+    if (run.plan) {
+      ++figures.sources[run.source];
+      ++figures.reasons[run.reason];
+    }
+    if (run.thinking) {
+      add(figures.thinking, *run.thinking);
+    }
+  }
+  return figures;
+}
+
+}  // namespace
+
+double false_trigger_loss(const MethodRun& run) {
+  if (!run.intervened()) {
+    return 0.0;
+  }
+  return run.plan && manoeuvre::drifts(run.plan->policy) ? 1.0 : 0.5;
+}
+
+std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
+                                         const std::vector<std::string>& methods,
+                                         std::optional<std::size_t> aeb, std::uint64_t seed) {
+  std::vector<const SuiteRow*> good;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(good),
+               [](const SuiteRow* row) { return row->fault.empty(); });
+  std::vector<MethodFigures> all;
+  if (good.empty()) {
+    return all;
+  }
+  const Bootstrap bootstrap(good.size(), seed);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    all.push_back(figures_of(good, methods[m], m, aeb, bootstrap));
+  }
+  return all;
+}
+
+Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method, std::size_t other,
+                    std::uint64_t seed) {
+  std::vector<std::optional<double>> differences;
+  for (const SuiteRow& row : rows) {
+    if (row.fault.empty()) {
+      differences.emplace_back(row.risk.runs[method].harm - row.risk.runs[other].harm);
+    }
+  }
+  return mean_over_encounters(differences, seed);
+}
+
+Estimate mean_over_encounters(const std::vector<std::optional<double>>& values,
+                              std::uint64_t seed) {
+  return values.empty() ? Estimate{} : Bootstrap(values.size(), seed).mean(values);
+}
+
+}  // namespace saca::eval

@@ -1,0 +1,20 @@
+# cmake -DFOLDER=<viewer> -DNAME=<page> -DHTML=<a.html> -DSTYLES=<a.css>,... -DSCRIPTS=<a.js>,... -DOUTPUT=<page.cpp>
+#   -P EmbedPage.cmake
+# Writes the sources of one page as byte arrays: string literals would need escaping and have a length limit.
+set(code "// Made from the files in viewer/ by EmbedPage.cmake.\n#include \"saca/lab/report/page.h\"\n\nnamespace saca::report {\n")
+foreach(part HTML STYLES SCRIPTS)
+  set(array ${NAME}_${part})
+  string(TOLOWER ${array} array)
+  string(REPLACE "," ";" files "${${part}}")
+  set(bytes "")
+  foreach(name IN LISTS files)
+    file(READ ${FOLDER}/${name} content HEX)
+    string(APPEND bytes "${content}")
+  endforeach()
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${bytes}")
+  string(APPEND code "static constexpr char ${array}[] = {${bytes}};\n")
+  list(APPEND views "{${array}, sizeof ${array}}")
+endforeach()
+list(JOIN views ", " views)
+string(APPEND code "const Page ${NAME}_page{${views}};\n}  // namespace saca::report\n")
+file(WRITE ${OUTPUT} "${code}")

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "saca/base/core/result.h"
+#include "saca/lab/report/value_map.h"
+#include "saca/lab/verification/authors_comparison.h"
+#include "saca/lab/verification/authors_network.h"
+#include "saca/thinking/danger/value_table.h"
+
+namespace saca::report {
+
+/// The network's values over a plane, as `value_map` has a table's.
+/// @return  `inside` is `in_authors_range`
+[[nodiscard]] ValueMap authors_map(const verification::AuthorsNetwork& network, const MapRange& x,
+                                   const MapRange& y, int columns, int rows, double yaw,
+                                   double speed);
+
+/// Where a pair of maps is taken.
+struct AuthorsView {
+  double course = 0.0;  ///< [rad]
+  double speed = 0.0;   ///< [m/s]
+};
+
+/// One page: a solved value and the published network side by side, and how they agree.
+struct AuthorsPage {
+  std::string case_name, network_name;
+  std::vector<Vec2> outline;  ///< of the obstacle [m]; empty: none
+  std::vector<AuthorsView> views;
+};
+
+/// @param value  as it was compared
+/// @return  HTML that needs no other file; an error when there is no memory for a picture
+[[nodiscard]] Result<std::string> authors_page(const AuthorsPage& page,
+                                               const danger::ValueAt& value,
+                                               const verification::AuthorsNetwork& network,
+                                               const verification::AuthorsComparison& comparison);
+
+/// The maps alone, a pair in each row, as bytes of a PNG file.
+/// @return  likewise
+[[nodiscard]] Result<std::string> authors_png(const AuthorsPage& page, const danger::ValueAt& value,
+                                              const verification::AuthorsNetwork& network);
+
+}  // namespace saca::report

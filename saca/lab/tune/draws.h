@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "saca/onboard/manoeuvre/ride.h"
+
+namespace saca::tune {
+
+/// How one manoeuvre ended.
+struct Ending {
+  Pose X_WB;
+  double speed = 0.0;      ///< over ground [m/s]
+  double time = 0.0;       ///< since its start [s]
+  bool ended = false;      ///< false: the horizon came first
+  std::vector<Pose> path;  ///< X_WB every 50 ms from the start; empty unless asked for
+};
+
+/// Rides to the end of the manoeuvre, or for `horizon` [s].
+[[nodiscard]] Ending ride_to_end(manoeuvre::Ride ride, double horizon, bool with_path = false);
+
+/// The same manoeuvre `count` times, with what its controller does not know drawn anew.
+///
+/// @param grip        true friction coefficient before it is drawn [-]
+/// @param with_paths  of how many, from the first on, the path is kept
+/// @param threads     >= 1; they do not change the result
+/// @throws ContractViolation  if refusal(car, plan, scene) has a reason
+[[nodiscard]] std::vector<Ending> draw_endings(const manoeuvre::Car& car,
+                                               const manoeuvre::Plan& plan,
+                                               const world::Scene& scene, double grip,
+                                               double horizon, int count, std::uint64_t seed,
+                                               int with_paths, int threads);
+
+/// How many of a T-drift's endings are at rest within 10 deg of across the lane.
+[[nodiscard]] int num_across(const std::vector<Ending>& endings, const manoeuvre::Plan& plan,
+                             const world::Road& road);
+
+}  // namespace saca::tune

@@ -1,0 +1,492 @@
+#include "saca/thinking/language_model/prompt.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "saca/base/core/contract.h"
+#include "saca/base/core/names.h"
+#include "saca/base/world/time_to_conflict.h"
+#include "saca/onboard/collision/describe.h"
+#include "saca/onboard/collision/ordering.h"
+#include "saca/onboard/forecast/admissible.h"
+#include "saca/thinking/language_model/token_bound.h"
+#include "saca/thinking/memory/experience.h"
+
+namespace saca::language_model {
+namespace {
+
+using manoeuvre::PolicyId;
+using world::Actor;
+using world::ActorKind;
+using world::Scene;
+
+constexpr std::string_view ego_name = "ego";
+constexpr std::string_view manoeuvres = "## Manoeuvres:\n";
+constexpr std::string_view historical = "## Historical Scenarios:\n";
+constexpr std::string_view risk_label = ", risk ";
+constexpr double conflict_horizon = 10.0;  // [s], as the risk's
+constexpr double trigger_tolerance = 0.5;  // [s], as the trigger's
+constexpr double standing = 0.05;          // [m/s]: below it rounds to 0.0
+
+constexpr std::array<std::string_view, manoeuvre::num_policies> policy_words{
+    "braking, lane kept",
+    "lane change to the left at constant speed",
+    "lane change to the right at constant speed",
+    "lane change to the left with braking",
+    "lane change to the right with braking",
+    "drift to a stop across the lane, facing left",
+    "drift to a stop across the lane, facing right",
+    "no intervention, lane and speed kept"};
+
+constexpr std::array<std::string_view, intent::num_intentions> intention_words{
+    "maintain", "lane change left",  "lane change right",
+    "brake",    "brake moving left", "brake moving right",
+    "stop",     "cross the lane"};
+
+constexpr std::array<std::string_view, world::num_cue_kinds> cue_words{
+    "school zone",
+    "bus at a stop with open doors",
+    "row of parked vans",
+    "work zone",
+    "siren of an emergency vehicle that is not seen",
+    "low sun",
+    "wet leaves on the road"};
+
+// "-0.0" would be a number that stands nowhere else.
+double without_negative_zero(double x, double resolution) {
+  return std::abs(x) < resolution / 2.0 ? 0.0 : x;
+}
+
+std::string placed(Vec2 p_B) {
+  return fmt::format("{:.1f} m {}, {:.1f} m {}", std::abs(p_B.x), p_B.x < 0.0 ? "behind" : "ahead",
+                     std::abs(p_B.y), p_B.y < 0.0 ? "right" : "left");
+}
+
+std::string moving(Vec2 v_B) {
+  const double speed = norm(v_B);
+  if (speed < standing) {
+    return "standing";
+  }
+  const bool along = std::abs(v_B.x) >= std::abs(v_B.y);
+  const std::string_view direction =
+      along ? (v_B.x > 0.0 ? "forwards" : "backwards") : (v_B.y > 0.0 ? "left" : "right");
+  return fmt::format("moving {} at {:.1f} m/s", direction, speed);
+}
+
+std::string ego_section(const Scene& scene) {
+  const Vec2 v_B = scene.ego.v_B;
+  const std::string sliding = std::abs(v_B.y) < standing
+                                  ? ""
+                                  : fmt::format(", sliding {:.1f} m/s to the {}", std::abs(v_B.y),
+                                                v_B.y < 0.0 ? "right" : "left");
+  return fmt::format("## Ego Vehicle:\n{}, velocity {:.1f} m/s{}, road {}, grip {:.2f}\n", ego_name,
+                     without_negative_zero(v_B.x, 0.1), sliding, name(scene.road.topology),
+                     scene.grip);
+}
+
+std::string obstacle_line(const Actor& actor, Vec2 p_B, double risk) {
+  return fmt::format("{}: {:.1f} m long, {:.1f} m wide, {}{}{:.2f}\n", actor_name(actor),
+                     actor.footprint.length, actor.footprint.width, placed(p_B), risk_label, risk);
+}
+
+std::string participant_line(const preview::Situation& situation, std::size_t i, Vec2 p_B) {
+  const Scene& scene = situation.scene_at_trigger;
+  const Actor& actor = scene.actors[i];
+  const auto intention = static_cast<std::size_t>(situation.intentions[i]);
+  const auto conflict = world::time_to_conflict(scene, actor, situation.tracks[i], conflict_horizon,
+                                                trigger_tolerance);
+  // Over ground, seen along the ego's axes.
+  const Vec2 v_B = rotated(actor.v_W, -scene.ego.X_WB.yaw);
+  return fmt::format(
+      "{}: {}, {}{}, {} {:.2f}, TTC {}{}{:.2f}\n", actor_name(actor), placed(p_B), moving(v_B),
+      actor.occluded ? ", not seen now" : "", name_of(situation.intentions[i], intention_words),
+      situation.posteriors[i].at(intention), conflict ? fmt::format("{:.1f} s", *conflict) : "none",
+      risk_label, situation.risks[i].risk);
+}
+
+// The most dangerous first, then the nearest; the order of the scene decides the rest.
+std::vector<std::size_t> by_danger(const preview::Situation& situation) {
+  const Scene& scene = situation.scene_at_trigger;
+  std::vector<std::size_t> order(scene.actors.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto distance = [&](std::size_t i) {
+    return norm(scene.actors[i].X_WA.p - scene.ego.X_WB.p);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double risk_a = situation.risks[a].risk;
+    const double risk_b = situation.risks[b].risk;
+    return risk_a != risk_b ? risk_a > risk_b : distance(a) < distance(b);
+  });
+  return order;
+}
+
+// The best forecast first; refused policies are not among them.
+std::vector<std::size_t> by_forecast(const preview::Situation& situation) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
+    if (situation.facts[k].drivable()) {
+      order.push_back(k);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return preview::better(situation.facts[a], situation.facts[b]);
+  });
+  return order;
+}
+
+/// What may be left out of a prompt.
+struct Detail {
+  bool of_actor = false;  ///< its line; else how the policy comes to its harm
+  std::size_t index = 0;  ///< of the actor or policy
+};
+
+// The weightiest first: the two who are most dangerous, then two policies and an actor in turns.
+std::vector<Detail> by_weight(const preview::Situation& situation) {
+  const std::vector<std::size_t> actors = by_danger(situation);
+  const std::vector<std::size_t> policies = by_forecast(situation);
+  std::vector<Detail> order;
+  auto actor = actors.begin();
+  auto policy = policies.begin();
+  const auto add_actor = [&] {
+    if (actor != actors.end()) {
+      order.push_back({true, *actor++});
+    }
+  };
+  const auto add_policy = [&] {
+    if (policy != policies.end()) {
+      order.push_back({false, *policy++});
+    }
+  };
+  add_actor();
+  while (actor != actors.end() || policy != policies.end()) {
+    add_actor();
+    add_policy();
+    add_policy();
+  }
+  return order;
+}
+
+/// How much of a situation is told.
+struct Depth {
+  std::vector<bool> actor;                               ///< whether it has a line, one per actor
+  std::array<bool, manoeuvre::num_policies> in_whole{};  ///< or without how it comes to the harm
+};
+
+std::string actor_line(const preview::Situation& situation, std::size_t i) {
+  const Scene& scene = situation.scene_at_trigger;
+  const Actor& actor = scene.actors[i];
+  const Vec2 p_B = inverse(scene.ego.X_WB) * actor.X_WA.p;
+  return actor.kind == ActorKind::obstacle ? obstacle_line(actor, p_B, situation.risks[i].risk)
+                                           : participant_line(situation, i, p_B);
+}
+
+std::string edge_text(double way, world::Beyond beyond, bool is_oncoming) {
+  return fmt::format("{:.1f} m, {}{}", std::max(way, 0.0), beyond_text(beyond),
+                     is_oncoming ? ", oncoming lane" : "");
+}
+
+std::string road_section(const Scene& scene) {
+  const world::Road& road = scene.road;
+  const double d = to_lane(road, scene.ego.X_WB).d;
+  std::string text =
+      fmt::format("## Road:\nleft edge {}; right edge {}\n",
+                  edge_text(road.left_edge - d, road.left_beyond, road.oncoming_left),
+                  edge_text(d - road.right_edge, road.right_beyond, road.oncoming_right));
+  for (const world::Cue& cue : scene.cues) {
+    text += fmt::format("{}, {}\n", cue_text(cue.kind), cue_place(cue, scene));
+  }
+  return text;
+}
+
+// Where it is not sure whether there is contact, how likely it is.
+std::string chance_text(const preview::PolicyFacts& facts) {
+  constexpr double sure = 0.005;
+  return facts.contact_probability() < sure || facts.contact_probability() > 1.0 - sure
+             ? ""
+             : fmt::format(", contact {:.0f} % likely", 100.0 * facts.contact_probability());
+}
+
+std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool in_whole) {
+  std::string line = manoeuvre::plan_text(facts.plan);
+  if (!facts.drivable()) {
+    return line + ": not possible: " + facts.refusal();
+  }
+  const auto& contact = facts.outcome().contact;
+  line += ": ";
+  if (!contact) {  // how far, and not of whom: each word of a prompt takes time
+    line += fmt::format("clear by {:.1f} m", facts.outcome().clearance) + chance_text(facts);
+  } else if (in_whole) {
+    line += collision::describe(facts.outcome(), scene) + chance_text(facts);
+  } else {
+    line +=
+        contact->actor ? "hits " + actor_name(scene.actors[*contact->actor]) : "leaves the road";
+  }
+  return line + ", " + harm_text(facts.outcome().harm);
+}
+
+// So that nobody who reads has to compare numbers; empty: nothing can be driven.
+std::string least_harm_line(const preview::Situation& situation) {
+  const memory::Policies may = admissible(situation.facts);
+  std::string text;
+  for (const std::size_t k : by_forecast(situation)) {
+    const bool is_next = !may.test(k);
+    text += fmt::format("{}{} {}",
+                        text.empty() ? "Least harm: "
+                        : is_next    ? "; next "
+                                     : ", ",
+                        k, name(situation.facts[k].plan.policy));
+    if (is_next) {
+      break;
+    }
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+/// Every line that may stand in a prompt.
+struct Lines {
+  std::vector<std::string> actor;
+  std::array<std::string, manoeuvre::num_policies> in_whole;
+  std::array<std::string, manoeuvre::num_policies> in_short;
+  std::string least_harm;  ///< empty: nothing can be driven
+};
+
+Lines lines_of(const preview::Situation& situation) {
+  Lines lines;
+  lines.actor.resize(situation.scene_at_trigger.actors.size());
+  for (std::size_t i = 0; i < lines.actor.size(); ++i) {
+    lines.actor[i] = actor_line(situation, i);
+  }
+  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
+    lines.in_whole.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, true) + '\n';
+    lines.in_short.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, false) + '\n';
+  }
+  lines.least_harm = least_harm_line(situation);
+  return lines;
+}
+
+std::string actor_sections(const Scene& scene, const Lines& lines, const Depth& depth) {
+  std::string obstacles;
+  std::string participants;
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < depth.actor.size(); ++i) {
+    const bool is_obstacle = scene.actors[i].kind == ActorKind::obstacle;
+    if (depth.actor[i]) {
+      (is_obstacle ? obstacles : participants) += lines.actor[i];
+    } else {
+      ++others;
+    }
+  }
+  if (others > 0) {
+    participants += fmt::format("{} more of lower risk\n", others);
+  }
+  return "## Obstacles:\n" + (obstacles.empty() ? "none\n" : obstacles) +
+         "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
+}
+
+std::string manoeuvre_section(const preview::Situation& situation, const Lines& lines,
+                              const Depth& depth) {
+  std::string text(manoeuvres);
+  std::string refused;
+  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
+    const preview::PolicyFacts& facts = situation.facts[k];
+    if (facts.drivable()) {
+      text += (depth.in_whole.at(k) ? lines.in_whole : lines.in_short).at(k);
+    } else {
+      refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
+    }
+  }
+  return text + (refused.empty() ? "" : "Not possible: " + refused + '\n') + lines.least_harm;
+}
+
+// The case's own texts are not told: they come from a file. What it teaches stands in its numbers:
+// how often it was met, and what was expected where it went otherwise.
+std::string history_section(const std::optional<memory::Case>& nearest, double similarity,
+                            bool with_lesson) {
+  if (!nearest) {
+    return std::string(historical) + "none\n";
+  }
+  const auto policy_harm = [](PolicyId policy, double harm) {
+    return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
+  };
+  if (memory::is_hearsay(*nearest)) {
+    return fmt::format("{}A case {:.0f} % alike: somebody says that {} {} is best\n", historical,
+                       100.0 * similarity, manoeuvre::index(nearest->best), name(nearest->best));
+  }
+  const PolicyId done = nearest->plan.policy;
+  std::string often;
+  std::string expected;
+  if (with_lesson && nearest->count > 1) {
+    often = fmt::format(", met {} times", nearest->count);
+  }
+  if (with_lesson && nearest->told && nearest->told->at(manoeuvre::index(done))) {
+    const double harm = *nearest->told->at(manoeuvre::index(done));
+    if (std::abs(harm - nearest->harm) > memory::as_good) {
+      expected = fmt::format(" ({:.4f} expected)", harm);
+    }
+  }
+  return fmt::format("{}A case {:.0f} % alike{}: carried out {}{}; best in hindsight {}\n",
+                     historical, 100.0 * similarity, often, policy_harm(done, nearest->harm),
+                     expected, policy_harm(nearest->best, nearest->best_harm));
+}
+
+std::string from_mildest() {
+  std::array<PolicyId, manoeuvre::num_policies> order = manoeuvre::all_policies;
+  std::stable_sort(order.begin(), order.end(), collision::milder);
+  std::string text;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool equal = i > 0 && collision::severity(order[i - 1]) == collision::severity(order[i]);
+    text += fmt::format("{}{}", i == 0 ? "" : equal ? " and " : ", ", manoeuvre::index(order[i]));
+  }
+  return text;
+}
+
+std::string rendered(const preview::Situation& situation, const Lines& lines, const Depth& depth,
+                     const std::string& history) {
+  const Scene& scene = situation.scene_at_trigger;
+  return "# Collision avoidance scenario\n" + ego_section(scene) +
+         actor_sections(scene, lines, depth) + road_section(scene) +
+         manoeuvre_section(situation, lines, depth) + history;
+}
+
+}  // namespace
+
+bool leads_into_oncoming(const world::Road& road, PolicyId policy) {
+  const int side = manoeuvre::side(policy);
+  return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
+}
+
+memory::Policies admissible(const preview::AllFacts& facts) {
+  memory::Policies policies;
+  const double least = preview::least_harm(facts);
+  const preview::PolicyFacts& braking = facts[manoeuvre::index(PolicyId::aeb)];
+  const double most =
+      forecast::admissible_harm(least, braking.drivable() ? braking.outcome().harm : least);
+  for (const preview::PolicyFacts& one : facts) {
+    policies.set(manoeuvre::index(one.plan.policy), one.drivable() && one.outcome().harm <= most);
+  }
+  return policies;
+}
+
+std::string system_part(const collision::HarmModel& harm) {
+  std::string text =
+      "You choose the manoeuvre that does the least harm in the last seconds before a crash.\n"
+      "Policies:\n";
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    text += fmt::format("{} {}: {}\n", manoeuvre::index(policy), name(policy),
+                        policy_words.at(manoeuvre::index(policy)));
+  }
+  text += fmt::format(
+      "Harm counts the people expected to be severely injured ({:g} each) or killed ({:g} each), "
+      "in and outside vehicles alike. It is a forecast: under \"Least harm\" stand, best first, "
+      "the "
+      "policies within {:.3f} of the least, or {:.0f} % of what AEB has above it, which cannot be "
+      "told apart, then the next. Choose the surest of those that cannot be told apart: whom it "
+      "may "
+      "hit and how likely, what lies beyond the edge, how the most alike case ended. Else the "
+      "mildest; from the mildest: {}. Do nothing where that is among them: it is looked at again.\n"
+      "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
+      "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
+      "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "
+      "facts, and as the last line \"Response to user: N\" with N from 0 to 7.",
+      harm.severe_weight, harm.severe_weight + harm.killed_weight, forecast::least_tolerance,
+      100.0 * forecast::tolerated_share, from_mildest());
+  return text;
+}
+
+std::string scene_part(const preview::Situation& situation,
+                       const std::optional<memory::Case>& nearest, double similarity) {
+  const std::size_t num_actors = situation.scene_at_trigger.actors.size();
+  expects(situation.intentions.size() == num_actors && situation.posteriors.size() == num_actors &&
+              situation.risks.size() == num_actors && situation.tracks.size() == num_actors,
+          "one intention, posterior, risk and track per actor");
+  expects(!nearest || (similarity >= 0.0 && similarity <= 1.0), "similarity in [0, 1]");
+  const Lines lines = lines_of(situation);
+  const std::string history = history_section(nearest, similarity, false);
+  Depth told{.actor = std::vector<bool>(num_actors), .in_whole = {}};
+  bool actors_left_out = false;  // nobody is told who is less dangerous than somebody untold
+  for (const Detail& detail : by_weight(situation)) {
+    if (detail.of_actor && actors_left_out) {
+      continue;
+    }
+    Depth more = told;
+    if (detail.of_actor) {
+      more.actor[detail.index] = true;
+    } else {
+      more.in_whole.at(detail.index) = true;
+    }
+    if (tokens_at_most(rendered(situation, lines, more, history)) <= most_prompt_tokens) {
+      told = std::move(more);
+    } else if (detail.of_actor) {
+      actors_left_out = true;
+    }
+  }
+  const std::string with_lesson =
+      rendered(situation, lines, told, history_section(nearest, similarity, true));
+  return tokens_at_most(with_lesson) <= most_prompt_tokens
+             ? with_lesson
+             : rendered(situation, lines, told, history);
+}
+
+std::string without_facts(const std::string& scene_part) {
+  const std::size_t begin = scene_part.find(manoeuvres);
+  const std::size_t end = scene_part.find(historical);
+  expects(begin < end && end != std::string::npos, "a scene part");
+  return scene_part.substr(0, begin) + scene_part.substr(end);
+}
+
+std::string without_risks(const std::string& scene_part) {
+  static constexpr std::string_view digits = "0123456789.";
+  std::string rest;
+  std::size_t from = 0;
+  for (std::size_t at = scene_part.find(risk_label); at != std::string::npos;
+       at = scene_part.find(risk_label, at + 1)) {
+    const std::size_t end = scene_part.find_first_not_of(digits, at + risk_label.size());
+    if (end != std::string::npos && scene_part[end] == '\n') {
+      rest.append(scene_part, from, at - from);
+      from = end;
+    }
+  }
+  return rest.append(scene_part, from, std::string::npos);
+}
+
+std::string_view cue_text(world::CueKind kind) {
+  return name_of(kind, cue_words);
+}
+
+std::string cue_place(const world::Cue& cue, const Scene& scene) {
+  return placed(inverse(scene.ego.X_WB) * cue.p_W);
+}
+
+std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {
+  return line_of(facts, scene, true);
+}
+
+// Zeros are digits, and each digit is a token to be read.
+std::string harm_text(double harm) {
+  constexpr double smallest = 0.5e-4;
+  return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
+}
+
+std::string_view beyond_text(world::Beyond beyond) {
+  constexpr std::array<std::string_view, 4> words{"open ground", "kerb", "barrier", "trees"};
+  return name_of(beyond, words);
+}
+
+bool is_line_of(std::string_view line, PolicyId policy) {
+  const std::string label = fmt::format("{} {}", manoeuvre::index(policy), name(policy));
+  return line.starts_with(label) && line.size() > label.size() &&
+         (line[label.size()] == ':' || line[label.size()] == ' ');
+}
+
+bool is_line_of_ego(std::string_view line) {
+  return line.starts_with(ego_name);
+}
+
+}  // namespace saca::language_model

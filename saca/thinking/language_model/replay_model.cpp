@@ -1,0 +1,214 @@
+#include "saca/thinking/language_model/replay_model.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "saca/base/config/json_text.h"
+#include "saca/base/core/file.h"
+#include "saca/base/core/fnv.h"
+#include "saca/base/core/printable.h"
+#include "saca/thinking/language_model/reply.h"
+
+namespace saca::language_model {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view schema = "saca.replies/1";
+constexpr Clock::Time longest_reply = std::chrono::hours(24);
+
+Json json_of(const RecordedReply& recorded) {
+  Json answers = Json::array();
+  for (const Answer& answer : recorded.reply.answers) {
+    answers.push_back({{"after_ns", answer.time.count()},
+                       {"kind", name(answer.kind)},
+                       {"probability", answer.probability}});
+  }
+  return {{"prompt", recorded.prompt},
+          {"reasoning", recorded.reply.reasoning},
+          {"prompt_tokens", recorded.reply.prompt_tokens},
+          {"reply_tokens", recorded.reply.reply_tokens},
+          {"answers", answers}};
+}
+
+Answer answer_from(const Json& json) {
+  Answer answer;
+  answer.time = Clock::Time(json.at("after_ns").get<Clock::Time::rep>());
+  answer.kind = answer_kind_from(json.at("kind").get<std::string>()).value();
+  answer.probability = json.at("probability").get<decltype(answer.probability)>();
+  return answer;
+}
+
+RecordedReply reply_from(const Json& json) {
+  RecordedReply recorded;
+  recorded.prompt = json.at("prompt").get<std::string>();
+  recorded.reply.reasoning = json.at("reasoning").get<std::string>();
+  recorded.reply.prompt_tokens = json.at("prompt_tokens").get<int>();
+  recorded.reply.reply_tokens = json.at("reply_tokens").get<int>();
+  for (const Json& answer : json.at("answers")) {
+    recorded.reply.answers.push_back(answer_from(answer));
+  }
+  return recorded;
+}
+
+// The first rule that a reply breaks, in words; nullptr when it can be used.
+const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
+  if (prompt_key(recorded.prompt) != key) {
+    return "the key of its prompt";
+  }
+  Clock::Time last{0};
+  for (const Answer& answer : recorded.reply.answers) {
+    double sum = 0.0;
+    for (const double p : answer.probability) {
+      if (!(p >= 0.0)) {
+        return "probabilities >= 0";
+      }
+      sum += p;
+    }
+    if (!(std::abs(sum - 1.0) < 1e-3)) {  // rounding of eight numbers
+      return "probabilities that sum to 1";
+    }
+    if (answer.time < last || answer.time > longest_reply) {
+      return "answers in the order of time, from 0 on, within a day";
+    }
+    last = answer.time;
+  }
+  return recorded.reply.answers.empty() ? "at least one answer" : nullptr;
+}
+
+}  // namespace
+
+std::string prompt_key(std::string_view prompt) {
+  Fnv hash;
+  hash.add(prompt);
+  return fmt::format("{:016x}", hash.value());
+}
+
+std::string json_text(const RecordedReplies& replies) {
+  Json list = Json::object();
+  for (const auto& [key, recorded] : replies.replies) {
+    list[key] = json_of(recorded);
+  }
+  const Json file{{"schema", schema}, {"model", replies.model}, {"replies", list}};
+  return file.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Result<RecordedReplies> parse_replies(std::string_view text, std::string_view source) {
+  const auto refuse = [&](std::string_view what) {
+    return Error{Error::Code::malformed, fmt::format("{}: {}", source, what)};
+  };
+  try {
+    const auto read = config::parse_json<Json>(text);
+    if (!read.has_value()) {
+      return refuse(read.error().message);
+    }
+    const Json& file = read.value();
+    if (const auto got = file.at("schema").get<std::string>(); got != schema) {
+      return refuse(fmt::format("schema: want {}, got {}", schema, one_line(got)));
+    }
+    RecordedReplies replies{.model = file.at("model").get<std::string>(), .replies = {}};
+    for (const auto& [key, json] : file.at("replies").items()) {
+      RecordedReply recorded;
+      try {
+        recorded = reply_from(json);
+      } catch (const std::exception& problem) {
+        return refuse(fmt::format("replies.{}: {}", one_line(key), one_line(problem.what())));
+      }
+      if (const char* rule = broken_rule(key, recorded)) {
+        return refuse(fmt::format("replies.{}: want {}", one_line(key), rule));
+      }
+      replies.replies.emplace(key, std::move(recorded));
+    }
+    return replies;
+  } catch (const Json::exception& problem) {
+    return refuse(one_line(problem.what()));
+  }
+}
+
+Result<std::vector<Reply>> RecordingModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+  const Clock::Time begin = clock_.now();
+  auto replies = model_.ask(scenes, deadline, progress, limits);
+  for (std::size_t i = 0; replies.has_value() && i < scenes.size(); ++i) {
+    RecordedReply recorded{.prompt = scenes[i], .reply = replies.value()[i]};
+    for (Answer& answer : recorded.reply.answers) {
+      answer.time -= begin;
+    }
+    if (!recorded.reply.answers.empty()) {
+      replies_.insert_or_assign(prompt_key(scenes[i]), std::move(recorded));
+    }
+  }
+  return replies;
+}
+
+RecordedReplies RecordingModel::recorded() const {
+  return {.model = model_.description(), .replies = replies_};
+}
+
+std::optional<Error> RecordingModel::write(const std::filesystem::path& path) const {
+  return write_file(path, json_text(recorded()));
+}
+
+Result<std::vector<Reply>> ReplayModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+  struct RecordedAnswer {
+    std::size_t scene = 0;
+    Answer answer;
+  };
+  const Clock::Time begin = clock_.now();
+  std::vector<Reply> replies(scenes.size());
+  std::vector<RecordedAnswer> recorded_answers;
+  bool any_known = false;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto found = replies_.replies.find(prompt_key(scenes[i]));
+    if (found == replies_.replies.end() || found->second.prompt != scenes[i]) {
+      continue;
+    }
+    any_known = true;
+    replies[i].prompt_tokens = found->second.reply.prompt_tokens;
+    for (Answer answer : found->second.reply.answers) {
+      answer.time += begin;
+      if (answer.time < deadline) {
+        recorded_answers.push_back({i, answer});
+      }
+    }
+  }
+  std::stable_sort(recorded_answers.begin(), recorded_answers.end(),
+                   [](const RecordedAnswer& a, const RecordedAnswer& b) {
+                     return a.answer.time < b.answer.time;
+                   });
+  bool any_answer = false;
+  for (const RecordedAnswer& next : recorded_answers) {
+    if (pace_ == ReplayPace::as_recorded) {
+      clock_.wait_until_or_stop(next.answer.time, limits.stop);
+    }
+    if (limits.stop.stop_requested()) {
+      break;
+    }
+    Reply& reply = replies[next.scene];
+    if (next.answer.kind != Answer::Kind::first && reply.reasoning.empty()) {
+      const Reply& recorded = replies_.replies.at(prompt_key(scenes[next.scene])).reply;
+      reply.reasoning = recorded.reasoning;
+      reply.reply_tokens = recorded.reply_tokens;
+      if (!reply.reasoning.empty()) {
+        progress({.prompt = next.scene, .text = reply.reasoning, .answer = nullptr});
+      }
+    }
+    reply.answers.push_back(next.answer);
+    any_answer = true;
+    progress({.prompt = next.scene, .text = {}, .answer = &reply.answers.back()});
+  }
+  if (any_answer) {
+    return replies;
+  }
+  return any_known ? Error{Error::Code::too_late, "replay: the recorded answers come too late"}
+                   : Error{Error::Code::unreadable,
+                           "replay: want a recorded prompt, got one that was never asked (key " +
+                               prompt_key(scenes.front()) + ")"};
+}
+
+}  // namespace saca::language_model

@@ -1,0 +1,83 @@
+#include "saca/thinking/language_model/review.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "saca/onboard/collision/describe.h"
+#include "saca/onboard/collision/ordering.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/memory/experience.h"
+
+namespace saca::language_model {
+namespace {
+
+/// Nothing else was carried out, and nothing would have been better.
+bool was_best(const Aftermath& aftermath) {
+  return aftermath.best == aftermath.done.policy && aftermath.later.empty();
+}
+
+}  // namespace
+
+std::string review_prompt(const Aftermath& aftermath) {
+  const auto& facts = aftermath.known.facts;
+  const preview::PolicyFacts& best = facts[manoeuvre::index(aftermath.best)];
+  std::string text =
+      "# Review of an encounter that is over\n"
+      "Say in three short numbered statements what happened, which policy would have been best and "
+      "by how much, and what to remember. Quote the figures. As the last line name the policy that "
+      "would have been best: \"Response to user: N\".\n"
+      "## Carried Out:\n";
+  text += manoeuvre::plan_text(aftermath.done);
+  for (const manoeuvre::Plan& plan : aftermath.later) {
+    text += ", then " + manoeuvre::plan_text(plan);
+  }
+  text += ": " + collision::describe(aftermath.result, aftermath.met) + ", " +
+          harm_text(aftermath.result.harm);
+  if (aftermath.forecast_harm && aftermath.later.empty()) {
+    text += "; forecast was " + harm_text(*aftermath.forecast_harm);
+  }
+  text += "\n## What each policy leads to, as is known now:\n";
+  for (const preview::PolicyFacts& each : facts) {
+    text += each.drivable() ? policy_line(each, aftermath.known.scene_at_trigger) + '\n'
+                            : manoeuvre::plan_text(each.plan) + ": not possible\n";
+  }
+  text += "## Best in Hindsight:\n" + manoeuvre::plan_text(best.plan);
+  return text + (was_best(aftermath) ? ": what was carried out\n"
+                                     : fmt::format(": harm less by {:.4f}\n",
+                                                   aftermath.result.harm - best.outcome().harm));
+}
+
+Explanation explanation(const Review& review, const Aftermath& aftermath) {
+  if (auto held = true_part(review.text, review.prompt, aftermath.known, std::nullopt)) {
+    return *std::move(held);
+  }
+  const preview::PolicyFacts& best = aftermath.known.facts[manoeuvre::index(aftermath.best)];
+  const double more = aftermath.result.harm - best.outcome().harm;
+  std::string text = fmt::format("1. {} was carried out", manoeuvre::plan_name(aftermath.done));
+  for (const manoeuvre::Plan& plan : aftermath.later) {
+    text += ", then " + manoeuvre::plan_name(plan);
+  }
+  text += fmt::format(": {}, {}.\n", collision::describe(aftermath.result, aftermath.met),
+                      harm_text(aftermath.result.harm));
+  if (was_best(aftermath)) {
+    text += "2. Nothing would have harmed less.\n";
+  } else if (more >= collision::harm_tie) {
+    text += fmt::format("2. {} would have harmed less by {:.4f}.\n",
+                        manoeuvre::plan_name(best.plan), more);
+  } else {
+    text += fmt::format("2. {} would have harmed as much.\n", manoeuvre::plan_name(best.plan));
+  }
+  if (aftermath.forecast_harm && aftermath.later.empty()) {
+    const double error = aftermath.result.harm - *aftermath.forecast_harm;
+    text += std::abs(error) <= memory::as_good
+                ? "3. It went as forecast"
+                : fmt::format("3. It harmed {:.4f} {} than was forecast", std::abs(error),
+                              error > 0.0 ? "more" : "less");
+    text += fmt::format(": {} instead of {}.\n", harm_text(aftermath.result.harm),
+                        harm_text(*aftermath.forecast_harm));
+  }
+  return {text, Explanation::From::facts};
+}
+
+}  // namespace saca::language_model

@@ -1,0 +1,74 @@
+#include "saca/thinking/language_model/scripted_model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace saca::language_model {
+namespace {
+
+constexpr Clock::Time way_back = std::chrono::milliseconds(1);
+
+Answer answer_of(const ScriptedLine& line, Clock::Time time) {
+  Answer answer{.time = time, .kind = *line.answer};
+  answer.probability.fill((1.0 - line.probability) / (manoeuvre::num_policies - 1));
+  answer.probability[manoeuvre::index(line.policy)] = line.probability;
+  return answer;
+}
+
+}  // namespace
+
+Result<std::vector<Reply>> ScriptedModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+  ++num_asked_;
+  last_scenes_ = scenes;
+  last_deadline_ = deadline;
+  const Clock::Time begin = clock_.now();
+  std::vector<Reply> replies;
+  std::vector<std::pair<std::size_t, ScriptedLine>> lines;  // of all scenes, by their times
+  bool cut = false;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const ScriptedReply said = script_(scenes[i]);
+    if (said.error) {
+      return *said.error;
+    }
+    replies.push_back({.prompt_tokens = said.prompt_tokens, .reply_tokens = said.reply_tokens});
+    cut = cut || said.lines.empty();
+    for (const ScriptedLine& line : said.lines) {
+      if (begin + line.after < deadline - way_back) {
+        lines.emplace_back(i, line);
+      } else {
+        cut = true;
+      }
+    }
+  }
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
+  bool any = false;
+  for (const auto& [scene, line] : lines) {
+    clock_.wait_until_or_stop(begin + line.after, limits.stop);
+    if (limits.stop.stop_requested()) {
+      break;
+    }
+    Reply& reply = replies[scene];
+    if (!line.text.empty()) {
+      reply.reasoning += line.text;
+      progress({.prompt = scene, .text = line.text, .answer = nullptr});
+    }
+    if (line.answer) {
+      any = true;
+      reply.answers.push_back(answer_of(line, begin + line.after));
+      progress({.prompt = scene, .text = {}, .answer = &reply.answers.back()});
+    }
+  }
+  if (cut) {
+    clock_.wait_until_or_stop(deadline - way_back, limits.stop);
+  }
+  if (!any) {
+    return Error{Error::Code::too_late, "script: no answer in time"};
+  }
+  return replies;
+}
+
+}  // namespace saca::language_model

@@ -1,0 +1,628 @@
+#include "saca/thinking/language_model/truth.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "saca/onboard/collision/describe.h"
+#include "saca/onboard/collision/ordering.h"
+#include "saca/thinking/language_model/conclusion.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/quote.h"
+#include "saca/thinking/language_model/quoted_number.h"
+#include "saca/thinking/language_model/reply.h"
+
+namespace saca::language_model {
+namespace {
+
+using manoeuvre::PolicyId;
+using preview::PolicyFacts;
+using preview::Situation;
+
+constexpr double told_as_none = 0.5e-4;  // told as "no harm"
+
+/// Lower case, for looking up words.
+std::string lowered(std::string_view text) {
+  std::string low(text);
+  std::transform(low.begin(), low.end(), low.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return low;
+}
+
+bool is_word_char(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// Where a word or phrase stands in lower-case text, not as a part of a longer word.
+std::optional<std::size_t> find_phrase(std::string_view low, std::string_view phrase,
+                                       std::size_t from = 0) {
+  for (std::size_t at = low.find(phrase, from); at != std::string_view::npos;
+       at = low.find(phrase, at + 1)) {
+    const std::size_t end = at + phrase.size();
+    if ((at == 0 || !is_word_char(low[at - 1])) && (end == low.size() || !is_word_char(low[end]))) {
+      return at;
+    }
+  }
+  return std::nullopt;
+}
+
+bool has_phrase(std::string_view low, std::string_view phrase) {
+  return find_phrase(low, phrase).has_value();
+}
+
+template <std::size_t n>
+bool has_any(std::string_view low, const std::array<std::string_view, n>& phrases) {
+  return std::any_of(phrases.begin(), phrases.end(),
+                     [&](std::string_view phrase) { return has_phrase(low, phrase); });
+}
+
+/// Lines, cut further where a sentence ends within one. A dot between digits ends none.
+std::vector<std::string_view> sentences(std::string_view text) {
+  std::vector<std::string_view> all;
+  std::size_t begin = 0;
+  const auto add = [&](std::size_t end) {
+    const std::string_view one = text.substr(begin, end - begin);
+    if (one.find_first_not_of(" \t\r.-*") != std::string_view::npos) {
+      all.push_back(one);
+    }
+    begin = end;
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool ends_here =
+        (text[i] == '.' || text[i] == ';') && i + 1 < text.size() &&
+        (text[i + 1] == ' ' || text[i + 1] == '\n') &&
+        // "1. " at the start numbers the line
+        text.substr(begin, i - begin).find_first_not_of(" -0123456789") != std::string_view::npos;
+    if (text[i] == '\n' || ends_here) {
+      add(i + 1);
+    }
+  }
+  add(text.size());
+  return all;
+}
+
+/// What a sentence is about.
+struct Subject {
+  std::vector<std::size_t> actors;      ///< of the scene
+  std::vector<std::string> unknown;     ///< names of our kind that nobody has
+  std::vector<PolicyId> policies;       ///< by number or name
+  std::optional<PolicyId> misnumbered;  ///< named beside a number that is not its own
+  int side = 0;                         ///< 1: left, -1: right, 0: none or both
+};
+
+/// "car3": the kinds' names with a number.
+void find_actors(std::string_view low, const Situation& situation, Subject& subject) {
+  constexpr std::array<world::ActorKind, 7> kinds{
+      world::ActorKind::car,        world::ActorKind::van,     world::ActorKind::truck,
+      world::ActorKind::motorcycle, world::ActorKind::bicycle, world::ActorKind::pedestrian,
+      world::ActorKind::obstacle};
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    if (i > 0 && is_word_char(low[i - 1])) {
+      continue;
+    }
+    for (const world::ActorKind kind : kinds) {
+      const std::string_view word = name(kind);
+      std::size_t end = i + word.size();
+      if (low.substr(i, word.size()) != word || end >= low.size() || low[end] < '0' ||
+          low[end] > '9') {
+        continue;
+      }
+      while (end < low.size() && is_word_char(low[end])) {
+        ++end;
+      }
+      const std::string_view called = low.substr(i, end - i);
+      const auto& actors = situation.scene_at_trigger.actors;
+      std::size_t found = 0;
+      while (found < actors.size() && actor_name(actors[found]) != called) {
+        ++found;
+      }
+      if (found < actors.size()) {
+        subject.actors.push_back(found);
+      } else {
+        subject.unknown.emplace_back(called);
+      }
+    }
+  }
+}
+
+/// Whether a number stands right before a place in the text that is not this one: "8 T-D-R".
+bool has_other_number(std::string_view low, std::size_t place, std::size_t number) {
+  std::size_t end = place;
+  if (end == 0 || low[end - 1] != ' ') {
+    return false;
+  }
+  std::size_t begin = --end;
+  while (begin > 0 && low[begin - 1] >= '0' && low[begin - 1] <= '9') {
+    --begin;
+  }
+  const bool alone = begin == 0 || (!is_word_char(low[begin - 1]) && low[begin - 1] != '.');
+  return begin < end && alone && low.substr(begin, end - begin) != std::to_string(number);
+}
+
+/// "policy 6", "actions 1, 3 and 5", "policies 1 to 4", "6 T-D-R" and "T-D-R".
+void find_policies(std::string_view low, Subject& subject) {
+  const auto add = [&](PolicyId policy) {
+    if (std::find(subject.policies.begin(), subject.policies.end(), policy) ==
+        subject.policies.end()) {
+      subject.policies.push_back(policy);
+    }
+  };
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    const std::string called = lowered(name(policy));
+    for (auto at = find_phrase(low, called); at; at = find_phrase(low, called, *at + 1)) {
+      add(policy);
+      if (has_other_number(low, *at, manoeuvre::index(policy))) {
+        subject.misnumbered = policy;
+      }
+    }
+  }
+  for (const std::string_view word : {"policy ", "policies ", "action ", "actions "}) {
+    for (auto at = low.find(word); at != std::string_view::npos; at = low.find(word, at + 1)) {
+      // A list ends with the first thing that is neither a digit by itself nor joins two.
+      int last = 0;
+      bool begins_range = false;
+      for (std::size_t i = at + word.size(); i < low.size();) {
+        const bool alone =
+            low[i] >= '0' && low[i] <= '7' && (i + 1 == low.size() || !is_word_char(low[i + 1]));
+        if (!alone) {
+          break;
+        }
+        const int number = low[i] - '0';
+        for (int each = begins_range ? last : number; each <= number; ++each) {
+          add(*manoeuvre::policy_from(each));
+        }
+        last = number;
+        ++i;
+        const std::string_view joint = joint_at(low.substr(i));
+        begins_range = joint == "-" || joint == " to ";
+        i += joint.size();
+      }
+    }
+  }
+}
+
+Subject subject_of(std::string_view low, const Situation& situation) {
+  Subject subject;
+  find_actors(low, situation, subject);
+  find_policies(low, subject);
+  const bool left = has_any(low, std::array<std::string_view, 2>{"left", "leftward"});
+  const bool right = has_any(low, std::array<std::string_view, 2>{"right", "rightward"});
+  subject.side = left == right ? 0 : left ? 1 : -1;
+  return subject;
+}
+
+/// The lines of the prompt that are about what a sentence names; all where it names nothing.
+std::string lines_about(std::string_view prompt, const Subject& subject,
+                        const Situation& situation) {
+  if (subject.actors.empty() && subject.policies.empty()) {
+    return std::string(prompt);
+  }
+  std::string found;
+  for (std::size_t begin = 0; begin < prompt.size();) {
+    const std::size_t end = std::min(prompt.find('\n', begin), prompt.size());
+    const std::string_view line = prompt.substr(begin, end - begin);
+    const std::string low = lowered(line);
+    const bool of_actor =
+        std::any_of(subject.actors.begin(), subject.actors.end(), [&](std::size_t i) {
+          return has_phrase(low, actor_name(situation.scene_at_trigger.actors[i]));
+        });
+    const bool of_policy = std::any_of(subject.policies.begin(), subject.policies.end(),
+                                       [&](PolicyId policy) { return is_line_of(line, policy); });
+    // What the ego is and does may be said beside anybody.
+    if (of_actor || of_policy || is_line_of_ego(line)) {
+      found += line;
+      found += '\n';
+    }
+    begin = end + 1;
+  }
+  return found;
+}
+
+bool agree(const QuotedNumber& said, const QuotedNumber& known) {
+  const bool same_unit = said.unit.empty() || known.unit.empty() || said.unit == known.unit;
+  constexpr double rounding = 1e-9;
+  constexpr double coarsest = 0.1;  // of the number: 1 is not a rounded 0.9
+  const bool may_be_rounded = said.resolution <= coarsest * said.value;
+  const double off = may_be_rounded ? 0.5 * said.resolution : 0.0;
+  const bool same_place = said.where.empty() || said.where == known.where;
+  const bool same_kind = said.of_what.empty() || said.of_what == known.of_what;
+  return same_unit && same_place && same_kind &&
+         std::abs(said.value - known.value) <= off + rounding;
+}
+
+/// "16 / 14 = 1.14": to the decimals that are quoted.
+bool is_quotient(const std::vector<QuotedNumber>& numbers, std::size_t i) {
+  return i >= 2 && numbers[i].after_equals && numbers[i - 1].value != 0.0 &&
+         std::abs(numbers[i - 2].value / numbers[i - 1].value - numbers[i].value) <=
+             0.5 * numbers[i].resolution + 1e-9;
+}
+
+bool hits(const PolicyFacts& facts) {
+  return facts.drivable() && facts.outcome().contact.has_value();
+}
+bool is_blocked(const PolicyFacts& facts) {
+  return !facts.drivable() || hits(facts);
+}
+
+/// What a sentence says of a manoeuvre.
+enum class Claim : std::uint8_t { not_possible, blocked, hits, no_harm, least_harm, clear };
+
+/// Whether something is denied or excepted in another way than claim_of() knows.
+bool is_denied(std::string_view low) {
+  using Phrases = std::array<std::string_view, 9>;
+  if (low.find("n't") != std::string_view::npos ||
+      has_any(low, Phrases{"nothing", "nobody", "no one", "no longer", "never", "except", "unlike",
+                           "but", "other than"})) {
+    return true;
+  }
+  for (auto at = find_phrase(low, "not"); at; at = find_phrase(low, "not", *at + 1)) {
+    const std::string_view rest = low.substr(*at + 3);
+    constexpr std::array<std::string_view, 6> known{" possible", " viable",  " clear",
+                                                    " hit",      " collide", " strike"};
+    if (std::none_of(known.begin(), known.end(),
+                     [&](std::string_view word) { return rest.starts_with(word); })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Claim> claim_of(std::string_view low) {
+  using Phrases = std::array<std::string_view, 4>;
+  if (is_denied(low)) {
+    return std::nullopt;
+  }
+  if (has_any(low, Phrases{"not possible", "impossible", "cannot be driven", "infeasible"})) {
+    return Claim::not_possible;
+  }
+  if (has_any(low, Phrases{"blocked", "not viable", "blocks", "blocking"})) {
+    return Claim::blocked;
+  }
+  if (has_any(low, Phrases{"least harm", "lowest harm", "smallest harm", "minimal harm"})) {
+    return Claim::least_harm;
+  }
+  if (has_any(low, Phrases{"not clear", "no clear", "unclear", "clearly"})) {
+    return std::nullopt;
+  }
+  const bool avoids =
+      has_any(low, Phrases{"no contact", "no collision", "avoids", "without contact"});
+  if (!avoids && has_any(low, Phrases{"hits", "hit", "collides", "strikes"})) {
+    return has_any(low, Phrases{"not hit", "does not", "not collide", "not strike"})
+               ? std::optional(Claim::clear)
+               : std::optional(Claim::hits);
+  }
+  if (avoids || has_any(low, Phrases{"clear", "is clear", "clears", "free"})) {
+    return Claim::clear;
+  }
+  if (has_any(low, Phrases{"no harm", "without harm", "harmless", "zero harm"})) {
+    return Claim::no_harm;
+  }
+  return std::nullopt;
+}
+
+/// A sentence in parts that claim one thing each: "1 and 3 are blocked, 2 is clear".
+std::vector<std::string_view> clauses(std::string_view sentence) {
+  std::vector<std::string_view> all;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < sentence.size(); ++i) {
+    const std::string_view rest = sentence.substr(i);
+    for (const std::string_view joint : {", but ", ", ", " but ", " while ", " and "}) {
+      if (rest.starts_with(joint) && claim_of(lowered(sentence.substr(begin, i - begin)))) {
+        all.push_back(sentence.substr(begin, i - begin));
+        begin = i + joint.size();
+        break;
+      }
+    }
+  }
+  all.push_back(sentence.substr(begin));
+  return all;
+}
+
+bool is_so(Claim claim, const PolicyFacts& facts, const Situation& situation) {
+  switch (claim) {
+    case Claim::not_possible:
+      return !facts.drivable();
+    case Claim::blocked:
+      return is_blocked(facts);
+    case Claim::hits:
+      return hits(facts);
+    case Claim::no_harm:
+      return facts.drivable() && facts.outcome().harm < told_as_none;
+    case Claim::least_harm:
+      return facts.drivable() &&
+             facts.outcome().harm <= preview::least_harm(situation.facts) + collision::harm_tie;
+    case Claim::clear:
+      return facts.drivable() && !facts.outcome().contact;
+  }
+  return true;
+}
+
+/// Is somebody among those that a policy is forecast to meet?
+bool meets(const PolicyFacts& facts, std::size_t actor) {
+  if (!hits(facts)) {
+    return false;
+  }
+  const collision::Outcome& ends = facts.outcome();
+  return ends.contact->actor == actor ||
+         std::any_of(ends.later.begin(), ends.later.end(),
+                     [&](const collision::Contact& one) { return one.actor == actor; });
+}
+
+/// Likewise, where it names road users: what it hits, or is clear of, is these.
+bool is_so_of(Claim claim, const PolicyFacts& facts, const Situation& situation,
+              const std::vector<std::size_t>& actors) {
+  const bool of_whom = claim == Claim::hits || claim == Claim::clear;
+  if (actors.empty() || !of_whom || !facts.drivable()) {
+    return is_so(claim, facts, situation);
+  }
+  return std::all_of(actors.begin(), actors.end(), [&](std::size_t actor) {
+    return meets(facts, actor) == (claim == Claim::hits);
+  });
+}
+
+std::string told(const PolicyFacts& facts, const Situation& situation) {
+  return fmt::format("{} {}: {}", manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
+                     facts.drivable()
+                         ? collision::describe(facts.outcome(), situation.scene_at_trigger)
+                         : "not possible");
+}
+
+/// A sentence being judged.
+struct Verdict {
+  bool says_something = false;
+  std::string why;  ///< empty: nothing is wrong
+  bool load_bearing = false;
+
+  void wrong(std::string reason) {
+    if (why.empty()) {
+      why = std::move(reason);
+    }
+  }
+};
+
+void judge_numbers(std::string_view sentence, std::string_view prompt, const Subject& subject,
+                   const Situation& situation, Verdict& verdict) {
+  std::vector<QuotedNumber> said = quoted_numbers(sentence);
+  if (said.empty()) {
+    return;
+  }
+  verdict.says_something = true;
+  const bool of_an_edge = has_any(
+      lowered(sentence), std::array<std::string_view, 4>{"edge", "trees", "barrier", "kerb"});
+  for (QuotedNumber& one : said) {
+    if (one.where == "away") {
+      one.where.clear();
+      one.of_what = of_an_edge ? "edge" : one.of_what;
+    }
+  }
+  const std::string lines = lines_about(prompt, subject, situation);
+  std::vector<QuotedNumber> known = quoted_numbers(lines);
+  if (has_phrase(lines, "no harm")) {
+    // Nothing but a number without a unit.
+    known.push_back({.text = "0", .unit = "of harm", .where = {}, .of_what = "harm"});
+  }
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    const bool stands = std::any_of(known.begin(), known.end(),
+                                    [&](const QuotedNumber& each) { return agree(said[i], each); });
+    if (!stands && !is_quotient(said, i)) {
+      verdict.wrong(fmt::format("{}{}{} stands nowhere", said[i].text,
+                                said[i].unit.empty() ? "" : " ", said[i].unit));
+    }
+  }
+}
+
+void judge_claim(Claim claim, const Subject& subject, const Situation& situation,
+                 Verdict& verdict) {
+  const auto& facts = situation.facts;
+  if (!subject.policies.empty()) {
+    verdict.says_something = true;
+    for (const PolicyId policy : subject.policies) {
+      const PolicyFacts& one = facts[manoeuvre::index(policy)];
+      if (!is_so_of(claim, one, situation, subject.actors)) {
+        verdict.wrong(told(one, situation));
+      }
+    }
+    return;
+  }
+  const bool of_a_side =
+      claim == Claim::not_possible || claim == Claim::blocked || claim == Claim::clear;
+  if (subject.side == 0 || !of_a_side || !subject.actors.empty()) {
+    return;
+  }
+  verdict.says_something = true;
+  const auto matches = [&](const PolicyFacts& one) {
+    return manoeuvre::side(one.plan.policy) == subject.side && is_so(claim, one, situation);
+  };
+  const auto num = std::count_if(facts.begin(), facts.end(), matches);
+  constexpr std::ptrdiff_t policies_of_a_side = 3;
+  if (claim == Claim::clear ? num == 0 : num < policies_of_a_side) {
+    verdict.wrong(fmt::format("of the three policies to the {} {} so",
+                              subject.side > 0 ? "left" : "right",
+                              num == 0   ? "none is"
+                              : num == 1 ? "one is"
+                                         : "two are"));
+  }
+}
+
+/// What was done and what was best in the case that the prompt tells of.
+struct AlikeCase {
+  std::optional<PolicyId> done;
+  std::optional<PolicyId> best;
+};
+
+AlikeCase alike_case(std::string_view prompt) {
+  const auto policy_after = [prompt](std::string_view words) -> std::optional<PolicyId> {
+    const std::size_t at = prompt.find(words);
+    if (at == std::string_view::npos || at + words.size() >= prompt.size()) {
+      return std::nullopt;
+    }
+    return manoeuvre::policy_from(prompt[at + words.size()] - '0');
+  };
+  return {policy_after(": carried out "), policy_after("; best in hindsight ")};
+}
+
+void judge_alike_case(std::string_view low, std::string_view prompt, const Subject& subject,
+                      Verdict& verdict) {
+  const AlikeCase alike = alike_case(prompt);
+  const std::optional<PolicyId> it = first_named(low);
+  const auto says = [&](PolicyId policy, std::string_view what,
+                        const std::optional<PolicyId>& known) {
+    const bool of_it = has_phrase(low, lowered(name(policy)) + std::string(what)) ||
+                       (policy == it && has_phrase(low, "this" + std::string(what)));
+    if (!of_it) {
+      return;
+    }
+    verdict.says_something = true;
+    if (known != policy) {
+      verdict.wrong(known ? fmt::format("in the most alike case it was {}", name(*known))
+                          : "no like case tells it");
+    }
+  };
+  for (const PolicyId policy : subject.policies) {
+    says(policy, " was best", alike.best);
+    says(policy, " was carried out", alike.done);
+  }
+}
+
+/// What is said of a policy ("this") beside another one.
+void judge_beside(std::string_view low, PolicyId it, PolicyId other, const Situation& situation,
+                  Verdict& verdict) {
+  const PolicyFacts& mine = situation.facts[manoeuvre::index(it)];
+  const PolicyFacts& theirs = situation.facts[manoeuvre::index(other)];
+  const auto must_be = [&](bool so, const std::string& why) {
+    verdict.says_something = true;
+    if (!so) {
+      verdict.wrong(why);
+    }
+  };
+  const auto both = [&](std::string_view how) {
+    return fmt::format("{} {} {}", name(it), how, name(other));
+  };
+  if (has_phrase(low, "harms about as little") || has_phrase(low, "as good as")) {
+    const auto may = admissible(situation.facts);
+    must_be(may.test(manoeuvre::index(it)) && may.test(manoeuvre::index(other)),
+            told(theirs, situation));
+  }
+  if (has_phrase(low, "milder")) {
+    must_be(collision::milder(it, other), both("is not milder than"));
+  }
+  if (has_phrase(low, "less often")) {
+    must_be(mine.drivable() && theirs.drivable() &&
+                mine.contact_probability() < theirs.contact_probability(),
+            both("touches somebody as often as"));
+  }
+  if (has_phrase(low, "out of the oncoming lane")) {
+    const world::Road& road = situation.scene_at_trigger.road;
+    must_be(!leads_into_oncoming(road, it) && leads_into_oncoming(road, other),
+            both("is where oncoming traffic is, or as far from it as"));
+  }
+}
+
+/// What is said of the policy that is named first ("this", "it"), alone or beside one other.
+void judge_comparison(std::string_view low, const Subject& subject, const Situation& situation,
+                      Verdict& verdict) {
+  const std::optional<PolicyId> it = first_named(low);
+  if (!it || is_denied(low)) {
+    return;
+  }
+  if (has_phrase(low, "alone is possible")) {
+    verdict.says_something = true;
+    const auto num = std::count_if(situation.facts.begin(), situation.facts.end(),
+                                   [](const PolicyFacts& one) { return one.drivable(); });
+    if (num != 1) {
+      verdict.wrong(fmt::format("{} policies are possible", num));
+    }
+  }
+  std::vector<PolicyId> others = subject.policies;
+  std::erase(others, *it);
+  if (others.size() == 1) {
+    judge_beside(low, *it, others.front(), situation, verdict);
+  }
+}
+
+/// Whether the sentence is about what was chosen.
+bool is_about(const Subject& subject, PolicyId choice) {
+  return std::find(subject.policies.begin(), subject.policies.end(), choice) !=
+             subject.policies.end() ||
+         (subject.policies.empty() && subject.side != 0 && subject.side == manoeuvre::side(choice));
+}
+
+Verdict judged(std::string_view sentence, std::string_view prompt, const Situation& situation,
+               const std::optional<PolicyId>& choice) {
+  const std::string low = lowered(sentence);
+  const Subject subject = subject_of(low, situation);
+  Verdict verdict;
+  if (!subject.unknown.empty()) {
+    verdict.says_something = true;
+    verdict.wrong("there is no " + subject.unknown.front());
+  }
+  if (subject.misnumbered) {
+    verdict.says_something = true;
+    verdict.wrong(fmt::format("{} is policy {}", name(*subject.misnumbered),
+                              manoeuvre::index(*subject.misnumbered)));
+  }
+  judge_numbers(sentence, prompt, subject, situation, verdict);
+  const std::optional<Claim> claim = claim_of(low);
+  if (claim) {
+    judge_claim(*claim, subject, situation, verdict);
+  }
+  judge_alike_case(low, prompt, subject, verdict);
+  judge_comparison(low, subject, situation, verdict);
+  if (choice && is_about(subject, *choice)) {
+    verdict.load_bearing = true;
+    const bool rules_out = claim == Claim::not_possible || claim == Claim::blocked;
+    if (rules_out && (subject.actors.empty() || !subject.policies.empty())) {
+      verdict.says_something = true;
+      verdict.wrong(
+          fmt::format("and yet {} {} was chosen", manoeuvre::index(*choice), name(*choice)));
+    }
+  }
+  return verdict;
+}
+
+}  // namespace
+
+std::optional<double> Truth::score() const {
+  return num_checked == 0 ? std::nullopt
+                          : std::optional(1.0 - static_cast<double>(wrong.size()) / num_checked);
+}
+
+bool Truth::is_choice_unfounded() const {
+  return !wrong_reason().empty();
+}
+
+std::string Truth::wrong_reason() const {
+  const auto found = std::find_if(wrong.begin(), wrong.end(),
+                                  [](const FalseStatement& each) { return each.load_bearing; });
+  return found == wrong.end() ? "" : found->why;
+}
+
+Truth truth_of(std::string_view reasoning, std::string_view prompt, const Situation& situation,
+               const std::optional<PolicyId>& choice) {
+  Truth truth;
+  for (const std::string_view sentence : sentences(reasoning)) {
+    for (const std::string_view clause : clauses(sentence)) {
+      Verdict verdict = judged(clause, prompt, situation, choice);
+      truth.num_checked += verdict.says_something ? 1 : 0;
+      if (!verdict.why.empty()) {
+        truth.wrong.push_back({.text = quote(clause, ""),
+                               .why = std::move(verdict.why),
+                               .load_bearing = verdict.load_bearing});
+      }
+    }
+  }
+  return truth;
+}
+
+Truth truth_of(const Reply& reply, std::string_view prompt, const Situation& situation) {
+  return truth_of(
+      finished_part(reply), prompt, situation,
+      reply.answers.empty() ? std::nullopt : std::optional(likeliest_policy(reply.answers.back())));
+}
+
+}  // namespace saca::language_model
