@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "saca/base/core/file.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/collision/harm.h"
 #include "saca/thinking/language_model/child_model.h"
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
@@ -35,7 +36,7 @@ class HostTest : public testing::Test {
   /// One thread: two that meet at each step take three times as long where somebody else computes.
   [[nodiscard]] language_model::ChildModelSettings settings(int max_tokens) const {
     return {.command = {SACA_MODEL_HOST, "--threads", "1", "--model", SACA_MODEL},
-            .system = language_model::system_part(collision::read_harm(SACA_HARM).value()),
+            .system = language_model::system_part(prepare::read_harm(SACA_HARM).value()),
             .identity = "base",
             .max_tokens = max_tokens};
   }

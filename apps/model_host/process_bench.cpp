@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/collision/harm.h"
 #include "saca/thinking/language_model/child_model.h"
 #include "saca/thinking/language_model/example_situation.h"
@@ -21,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr auto without_haste = 5min;
 
 std::string system_part() {
-  return language_model::system_part(collision::read_harm(SACA_HARM).value());
+  return language_model::system_part(prepare::read_harm(SACA_HARM).value());
 }
 
 std::string scene_part() {

@@ -15,6 +15,7 @@
 #include <random>
 #include <thread>
 
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/collision/harm.h"
 #include "saca/thinking/language_model/child_model.h"
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
@@ -95,7 +96,7 @@ class SoakTest : public testing::Test {
   std::vector<std::string> scenes_;
   language_model::ChildModel model_{
       {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads", "2", "--give-way"},
-       .system = language_model::system_part(collision::read_harm(SACA_HARM).value()),
+       .system = language_model::system_part(prepare::read_harm(SACA_HARM).value()),
        .identity = "base",
        .max_tokens = soaking() ? language_model::ChildModelSettings{}.max_tokens : 24},
       clock_};

@@ -13,6 +13,7 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/car_file.h"
 #include "saca/lab/report/drive_json.h"
 #include "saca/lab/report/html_report.h"
 #include "saca/onboard/manoeuvre/drive.h"
@@ -125,7 +126,7 @@ int drive(const DriveOptions& options) {
     return refused(found.error());
   }
   const fs::path& car_file = found.value();
-  const auto car = manoeuvre::read_car(car_file);
+  const auto car = prepare::read_car(car_file);
   if (!car.has_value()) {
     complain(car.error().message);
     return bad_input;

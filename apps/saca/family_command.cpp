@@ -14,8 +14,8 @@
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/lab/eval/suite_source.h"
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/manoeuvre/ego.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::app {
 namespace {

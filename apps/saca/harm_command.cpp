@@ -8,6 +8,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/report/harm_chart.h"
 
 namespace saca::app {
@@ -53,7 +54,7 @@ int harm(const HarmOptions& options) {
     return bad_input;
   }
   const std::filesystem::path file = places.value().root / "data" / "harm.toml";
-  const auto model = collision::read_harm(file);
+  const auto model = prepare::read_harm(file);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;

@@ -4,6 +4,8 @@
 
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
+#include "saca/lab/prepare/car_file.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/tape_header.h"
 
@@ -21,11 +23,11 @@ Result<Inputs> read_inputs(const std::string& car) {
     return found.error();
   }
   const fs::path& file = found.value();
-  const auto read = manoeuvre::read_car(file);
+  const auto read = prepare::read_car(file);
   if (!read.has_value()) {
     return read.error();
   }
-  const auto harm = collision::read_harm(places.value().root / "data" / "harm.toml");
+  const auto harm = prepare::read_harm(places.value().root / "data" / "harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }

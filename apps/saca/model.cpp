@@ -13,6 +13,7 @@
 #include "saca/base/config/config.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/collision/harm.h"
 #include "saca/thinking/language_model/chat_address.h"
 #include "saca/thinking/language_model/openai_model.h"
@@ -46,7 +47,7 @@ Result<std::unique_ptr<language_model::LanguageModel>> open_replay(const std::st
 }
 
 Result<std::string> system_part(const Places& places) {
-  const auto harm = collision::read_harm(places.root / "data" / "harm.toml");
+  const auto harm = prepare::read_harm(places.root / "data" / "harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }

@@ -14,7 +14,7 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/oracle.h"
-#include "saca/onboard/collision/describe.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::app {
 namespace {
@@ -55,7 +55,7 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
   all["as_written"] = {{"harm", written.harm},
                        {"collision_loss", written.collision_loss},
                        {"clearance_m", written.clearance},
-                       {"text", describe(written, scene)}};
+                       {"text", rollout::describe(written, scene)}};
   if (written.contact) {
     const collision::Contact& contact = *written.contact;
     all["as_written"]["contact"] = {
@@ -75,7 +75,7 @@ std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
   return fmt::format("{:26}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
                      manoeuvre::plan_text(facts.plan), expected.harm.value, expected.harm.low,
                      expected.harm.high, expected.collision_loss.value,
-                     100.0 * expected.contact.share, describe(facts.outcome(), scene));
+                     100.0 * expected.contact.share, rollout::describe(facts.outcome(), scene));
 }
 
 void print(const eval::Oracle& oracle, const OracleCommand& options) {

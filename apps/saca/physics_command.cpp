@@ -12,6 +12,7 @@
 #include "saca/base/core/parallel.h"
 #include "saca/base/core/percentile.h"
 #include "saca/base/core/proportion.h"
+#include "saca/lab/prepare/car_file.h"
 #include "saca/lab/tune/draws.h"
 #include "saca/lab/verification/physics_figures.h"
 #include "saca/onboard/manoeuvre/drive.h"
@@ -112,7 +113,7 @@ int physics(const PhysicsOptions& options) {
   if (!usual.has_value()) {
     return refused(usual.error());
   }
-  const auto car = manoeuvre::read_car(usual.value());
+  const auto car = prepare::read_car(usual.value());
   if (!car.has_value()) {
     complain(car.error().message);
     return bad_input;
@@ -131,7 +132,7 @@ int physics(const PhysicsOptions& options) {
     if (!file.has_value()) {
       return refused(file.error());
     }
-    const auto one = manoeuvre::read_car(file.value());
+    const auto one = prepare::read_car(file.value());
     if (!one.has_value()) {
       complain(one.error().message);
       return bad_input;

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "saca/onboard/collision/describe.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::app {
 
@@ -19,7 +19,7 @@ report::SceneView view_of(const world::Scene& scene, const encounter::Hindsight&
     }
     return view;
   }
-  view.lines = {describe(facts.outcome(), scene)};
+  view.lines = {rollout::describe(facts.outcome(), scene)};
   view.ego = tried.sequence.ego.track;
   view.others = tried.sequence.others;
   if (facts.outcome().contact) {

@@ -12,8 +12,8 @@
 #include <iterator>
 
 #include "saca/base/core/printable.h"
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/collision/ordering.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::app {
 namespace {
@@ -131,21 +131,21 @@ void Story::ending(const scenario::Scenario& scenario, const encounter::Record& 
   }
   if (record.driver) {
     fmt::format_to(line, "The drive as recorded: {}.\n",
-                   collision::describe(*record.driver, record.met_by_driver));
+                   rollout::describe(*record.driver, record.met_by_driver));
   }
   if (!record.decision) {
     fmt::format_to(line, "SACA: never triggered; {}.\n",
-                   collision::describe(record.result, record.met));
+                   rollout::describe(record.result, record.met));
     say(text);
     return;
   }
   fmt::format_to(line, "SACA: {}, {}. Collision Loss {:.2f}, harm {:.4f}.\n", done(record),
-                 collision::describe(record.result, record.met), record.result.collision_loss,
+                 rollout::describe(record.result, record.met), record.result.collision_loss,
                  record.result.harm);
   const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
   fmt::format_to(line, "Best in hindsight, kept to the end: {}, {}. {}\n",
                  manoeuvre::plan_text(best.plan),
-                 collision::describe(best.outcome(), *record.at_trigger), beside(best, record));
+                 rollout::describe(best.outcome(), *record.at_trigger), beside(best, record));
   say(text);
 }
 

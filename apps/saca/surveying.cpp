@@ -29,7 +29,7 @@ std::optional<Error> add_inputs(const Places& places, const std::string& car, Fn
                               places.root / "data" / "harm.toml",
                               places.root / "data" / "thinking_costs.toml",
                               places.root / "scenarios" / "splits.toml"};
-  files.push_back(manoeuvre::tuning_path(files.front()));
+  files.push_back(prepare::tuning_path(files.front()));
   for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
     if (entry.path().extension() == ".toml") {
       files.push_back(entry.path());

@@ -16,10 +16,11 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/prepare/tuning_file.h"
+#include "saca/lab/prepare/vehicle_file.h"
 #include "saca/lab/tune/minimise.h"
 #include "saca/lab/tune/trials.h"
 #include "saca/onboard/manoeuvre/car.h"
-#include "saca/onboard/vehicle/parameters.h"
 
 namespace saca::app {
 namespace {
@@ -96,11 +97,11 @@ Result<std::optional<double>> tune_law(const TuneOptions& options, const std::st
 
 /// The car with the tuning to begin with.
 Result<Car> read_start(const fs::path& car_file, const fs::path& tuning_file) {
-  const auto parameters = vehicle::read_vehicle(car_file);
+  const auto parameters = prepare::read_vehicle(car_file);
   if (!parameters.has_value()) {
     return parameters.error();
   }
-  const auto tuning = manoeuvre::read_tuning(tuning_file);
+  const auto tuning = prepare::read_tuning(tuning_file);
   if (!tuning.has_value()) {
     return tuning.error();
   }
@@ -139,16 +140,16 @@ int tune_car(TuneOptions options) {
   }
   const fs::path& car_file = found.value();
   if (options.from.empty()) {
-    const bool tuned = fs::exists(manoeuvre::tuning_path(car_file));
+    const bool tuned = fs::exists(prepare::tuning_path(car_file));
     options.from = tuned ? options.car : TuneOptions{}.car;
   }
   const fs::path output =
-      options.output.empty() ? manoeuvre::tuning_path(car_file) : fs::path(options.output);
+      options.output.empty() ? prepare::tuning_path(car_file) : fs::path(options.output);
   const auto from = find_car(places.value(), options.from);
   if (!from.has_value()) {
     return refused(from.error());
   }
-  const auto start = read_start(car_file, manoeuvre::tuning_path(from.value()));
+  const auto start = read_start(car_file, prepare::tuning_path(from.value()));
   if (!start.has_value()) {
     return refused(start.error());
   }
@@ -185,7 +186,7 @@ int tune_car(TuneOptions options) {
   const std::string comment = fmt::format(
       "Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/lab/tune/trials.h).",
       command_line(options), *swerve.value(), *drift.value());
-  if (auto problem = write_output(output, manoeuvre::tuning_text(car.tuning, comment))) {
+  if (auto problem = write_output(output, prepare::tuning_text(car.tuning, comment))) {
     return refused(*problem);
   }
   fs::remove(swerve_journal);

@@ -14,10 +14,10 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/names.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/vehicle_file.h"
 #include "saca/lab/tune/fit_car_file.h"
 #include "saca/lab/tune/fit_drive.h"
 #include "saca/lab/tune/fit_vehicle.h"
-#include "saca/onboard/vehicle/parameters.h"
 
 namespace saca::app {
 namespace {
@@ -117,7 +117,7 @@ int fit_car(const FitOptions& options) {
   if (!text.has_value()) {
     return refuse(text.error().message, bad_input);
   }
-  const auto car = vehicle::parse_vehicle(text.value(), base.string());
+  const auto car = prepare::parse_vehicle(text.value(), base.string());
   if (!car.has_value()) {
     return refuse(car.error().message, bad_input);
   }
@@ -170,7 +170,7 @@ int drive_test(const TestDriveOptions& options) {
   if (!file.has_value()) {
     return refused(file.error());
   }
-  const auto car = vehicle::read_vehicle(file.value());
+  const auto car = prepare::read_vehicle(file.value());
   if (!car.has_value()) {
     return refuse(car.error().message, bad_input);
   }

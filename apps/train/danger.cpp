@@ -22,6 +22,7 @@
 #include "saca/lab/learned_danger/network.h"
 #include "saca/lab/learned_danger/transition_file.h"
 #include "saca/lab/network_training/danger_training.h"
+#include "saca/lab/prepare/car_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace {
@@ -74,7 +75,7 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
     }
     if (data.car.empty()) {
       data.car = part.value().car;
-      const auto car = manoeuvre::read_car(fs::path(root) / "data/vehicles" / (data.car + ".toml"));
+      const auto car = prepare::read_car(fs::path(root) / "data/vehicles" / (data.car + ".toml"));
       if (!car.has_value()) {
         return car.error();
       }

@@ -22,6 +22,8 @@
 #include "saca/lab/eval/suite_source.h"
 #include "saca/lab/eval/traffic_drives.h"
 #include "saca/lab/network_training/place_mixture.h"
+#include "saca/lab/prepare/car_file.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace {
@@ -56,11 +58,11 @@ struct World {
 };
 
 Result<World> read_world(const fs::path& root) {
-  auto car = manoeuvre::read_car(root / "data/vehicles/compact_rwd_ev.toml");
+  auto car = prepare::read_car(root / "data/vehicles/compact_rwd_ev.toml");
   if (!car.has_value()) {
     return car.error();
   }
-  auto harm = collision::read_harm(root / "data/harm.toml");
+  auto harm = prepare::read_harm(root / "data/harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }

@@ -2,14 +2,16 @@
 // thinking plane work beside, on threads of their own. Built against an installed package.
 #include <cstdio>
 
+#include "saca/lab/prepare/car_file.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/avoider.h"
 
 int main() {
   using namespace saca;
   const std::filesystem::path data = SACA_DATA;
-  const auto car = manoeuvre::read_car(data / "data/vehicles/compact_rwd_ev.toml").value();
-  const auto harm = collision::read_harm(data / "data/harm.toml").value();
+  const auto car = prepare::read_car(data / "data/vehicles/compact_rwd_ev.toml").value();
+  const auto harm = prepare::read_harm(data / "data/harm.toml").value();
   const auto intent = intent::read_model(data / "models/intent/model.safetensors").value();
   SteadyClock clock;
   Avoider avoider(

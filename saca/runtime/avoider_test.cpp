@@ -15,7 +15,8 @@
 #include <vector>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/replay.h"
 #include "saca/thinking/intent/shipped_model.h"
@@ -108,8 +109,8 @@ class Drive {
 
  private:
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   Avoider avoider_;
   Scene scene_;
   vehicle::VehicleState state_;
@@ -279,8 +280,8 @@ TEST(Avoider, TellsWhatItDid) {
 // Who wants to hear the thinking plane while it thinks gets all of it, and `next_event` the rest.
 // What was thought is handed over when the encounter is over, and in the end.
 TEST(Avoider, WhoListensToTheThinkingPlaneHearsItAtOnce) {
-  const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const manoeuvre::Car car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   SteadyClock clock;
   std::size_t num_heard = 0;
   std::vector<std::pair<std::uint32_t, std::size_t>> thought;  // encounter, events of it
@@ -451,8 +452,8 @@ class StoppedClock final : public Clock {
 
 // No thread beside ever comes to work on anything; the driving one decides as if there were none.
 TEST(Avoider, BrakesWhereTheClockStandsStill) {
-  const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const manoeuvre::Car car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   StoppedClock clock;
   Avoider avoider(
       {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
@@ -632,8 +633,8 @@ TEST(Avoider, OutlivesWhatIsNoKindShapeOrName) {
 
 // At pace `real` nothing that is done on the driving thread takes memory.
 TEST(Avoider, AllocatesNothingOnTheDrivingThread) {
-  const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const manoeuvre::Car car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   SteadyClock clock;
   Avoider avoider({.planes = {.forecast = {&car, &harm},
                               .pace = runtime::Pace::real,
@@ -663,8 +664,8 @@ TEST(Avoider, MakesNoSystemCallOnTheDrivingThread) {
   if (!why.empty()) {
     GTEST_SKIP() << why;
   }
-  const manoeuvre::Car car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const manoeuvre::Car car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
   scene.ego_mass = car.mass;
   scene.actors.push_back(test::car(1, {40.0, 0.0}));

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "tests/support/scenes.h"
 
 namespace saca::runtime::charged_forecasts_test {
@@ -23,8 +24,8 @@ class ChargedForecastsTest : public ::testing::Test {
     return [cost](const TimedScene&) { return cost; };
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   arbitration::Judge judge_ = [one = arbitration::Forecaster({.car = &car_, .harm = &harm_}, 1)](
                                   const auto&... seen) { return one.judge(seen...); };
 };

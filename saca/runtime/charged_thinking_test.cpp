@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/runtime/wreck_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 
@@ -31,8 +32,8 @@ TEST(ChargedThinking, HoldsPlansBackUntilTheyAreReady) {
 }
 
 TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   ManualClock clock;
   ChargedThinking thinking(0.5, clock);
   arbitration::ThinkingPlane plane(

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "saca/base/core/clock.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/runtime/avoider.h"
 #include "saca/thinking/intent/shipped_model.h"
@@ -72,8 +73,8 @@ class Cruise {
   }
 
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   Avoider avoider_{{.planes = {.forecast = {&car_, &harm_}, .clock = &clock_},
                     .intent = &intent::shipped_model()}};
   world::Scene scene_ = test::ego_at(cruising_speed, manoeuvre::footprint(car_));

@@ -9,8 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/language_model/scripted_model.h"
 #include "tests/support/meeting_clock.h"
@@ -79,8 +80,8 @@ class PlanesTest : public testing::Test {
   }
 
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
 };
 
 // Braking needs 42.7 m and hits the wreck; both other lanes are free.

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/collision/harm.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/runtime/planes.h"
 #include "saca/runtime/tape.h"
 #include "saca/runtime/wreck_for_test.h"
@@ -16,8 +17,8 @@ namespace saca::runtime {
 /// A car that drives towards a wreck at 20 m/s on a dry road, and what it decides with. It drives
 /// on whatever is decided, and the wreck vanishes 0.4 s after the trigger.
 struct TapedDrive {
-  manoeuvre::Car car = manoeuvre::default_car();
-  collision::HarmModel harm = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car = prepare::default_car();
+  collision::HarmModel harm = prepare::read_harm("data/harm.toml").value();
   SteadyClock steady;
 
   [[nodiscard]] PlanesSetup setup(Pace pace = Pace::lockstep, Clock* clock = nullptr) {

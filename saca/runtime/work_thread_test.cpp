@@ -5,7 +5,8 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/runtime/wreck_for_test.h"
 #include "saca/thinking/arbitration/thinking_plane.h"
 #include "saca/thinking/intent/shipped_model.h"
@@ -26,8 +27,8 @@ WorkThread::Work thinking(arbitration::ThinkingPlane& plane) {
 // Two threads meet in two slots. What the thread sanitiser looks at on the machine's clock is
 // RealPace.
 TEST(WorkThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   MeetingClock clock(2);  // this thread and the thinking one
   LatestSlot<TimedScene> scenes;
   LatestSlot<reflex::PlanCache> plans;
@@ -60,8 +61,8 @@ TEST(WorkThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
 
 // Without an answer the question would last until the trigger, some seconds.
 TEST(WorkThread, DoesNotWaitForAModelWhenItEnds) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   MeetingClock clock(2);  // this thread and the thinking one
   LatestSlot<TimedScene> scenes;
   std::atomic<bool> asked{false};

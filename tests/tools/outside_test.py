@@ -9,7 +9,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TOOL = ROOT / "tools" / "outside_vehicle"
-TESTDATA = ROOT / "saca" / "vehicle" / "testdata"
+TESTDATA = ROOT / "saca" / "onboard" / "vehicle" / "testdata"
 
 
 def load_cases():

@@ -18,7 +18,7 @@ import models
 from vehiclemodels.vehicle_parameters import setup_vehicle_parameters
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-REFERENCES = ROOT / "saca" / "vehicle" / "testdata"
+REFERENCES = ROOT / "saca" / "onboard" / "vehicle" / "testdata"
 PARAMETERS = ("m", "I_z", "a", "b", "T_f", "T_r", "h_cg", "h_s", "R_w", "I_y_w", "m_s", "m_uf", "m_ur")
 TYRE = ("p_cy1", "p_dy1", "p_ky1", "p_cx1", "p_dx1", "p_kx1")
 

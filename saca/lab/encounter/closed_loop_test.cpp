@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "saca/lab/encounter/wreck_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/vehicle/vehicle.h"
 #include "saca/thinking/intent/shipped_model.h"
 
@@ -62,8 +63,8 @@ class ClosedLoopTest : public testing::Test {
 
   SteadyClock clock_;
   scenario::Scenario scenario_ = wreck_on_wet_road();
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   const intent::Model& intent_ = intent::shipped_model();
 };
 

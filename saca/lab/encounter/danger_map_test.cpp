@@ -10,7 +10,8 @@
 #include <numbers>
 
 #include "saca/lab/encounter/encounter.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/danger/risk.h"
 #include "saca/thinking/intent/shipped_model.h"
@@ -197,9 +198,9 @@ class DangerMapsTest : public testing::Test {
             .clock = &clock_};
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   const intent::Model& intent_ = intent::shipped_model();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   scenario::Scenario scenario_{
       .name = "disc", .title = "A disc", .car = "x", .grip = 0.9, .duration = 4.0};
   SteadyClock clock_;

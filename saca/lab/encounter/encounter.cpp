@@ -13,10 +13,10 @@
 #include "saca/lab/encounter/dispatcher.h"
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/encounter/recorded_driver.h"
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/runtime/avoider.h"
 #include "saca/thinking/preview/preview.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::encounter {
 namespace {
@@ -280,7 +280,7 @@ void Encounter::conclude() {
     record_.result.nearest = since.nearest;
   }
   if (loop_.contact()) {
-    tell(Plane::world, EventKind::contact, collision::describe(record_.result, record_.met));
+    tell(Plane::world, EventKind::contact, rollout::describe(record_.result, record_.met));
   }
   if (record_.decision) {
     record_.hindsight = hindsight_of_all_speeds(trigger_->point, *setup_.car, *setup_.harm);

@@ -8,8 +8,9 @@
 #include <filesystem>
 
 #include "saca/lab/encounter/wreck_for_test.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/thinking/arbitration/forecaster.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/language_model/scripted_model.h"
@@ -56,9 +57,9 @@ class EncounterTest : public testing::Test {
 
   SteadyClock clock_;
   Silence quiet_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   const intent::Model& intent_ = intent::shipped_model();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
 };
 
 TEST_F(EncounterTest, AskedToBrakeItBrakesAtT1) {

@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "saca/lab/encounter/wreck_for_test.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/collision/ordering.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/runtime/wreck_for_test.h"
 
 namespace saca::encounter::hindsight_test {
@@ -17,8 +18,8 @@ using manoeuvre::PolicyId;
 // A wreck 28 m ahead of the front at 20 m/s, lanes on both sides. Braking takes 24.9 m on dry road
 // and 42.7 m at grip 0.5 (docs/architecture.md); a lane change 0.9 s to clear it.
 TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   world::Scene scene = runtime::wreck_ahead(car, 32.5);
   scene.road.left_edge = 5.25;
   scene.road.right_edge = -5.25;
@@ -66,8 +67,8 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
 
 // The same wreck between barriers: whatever is done, something is met.
 TEST(Hindsight, OfEachPolicyThePlanStandsThatHarmsLeast) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   world::Scene scene = runtime::wreck_ahead(car, 32.5);
   scene.road.left_edge = 1.9;
   scene.road.right_edge = -1.9;

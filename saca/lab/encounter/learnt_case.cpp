@@ -7,8 +7,8 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/encounter/provenance.h"
-#include "saca/onboard/collision/describe.h"
 #include "saca/thinking/preview/preview.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::encounter {
 namespace {
@@ -76,8 +76,8 @@ memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger
   one.best_harm = best.outcome().harm;
   one.collision_loss = record.result.collision_loss;
   one.review = fmt::format("{}: {}; best {}: {}", name(decision.plan.policy),
-                           collision::describe(record.result, record.met), name(*record.best),
-                           collision::describe(best.outcome(), trigger.point.scene));
+                           rollout::describe(record.result, record.met), name(*record.best),
+                           rollout::describe(best.outcome(), trigger.point.scene));
   one.happened =
       happened_harms(all_plans_tried({&trigger.point, 1}, *setup.car, *setup.harm).front());
   const preview::ForecastTools tools{setup.car, setup.harm, setup.atlas, setup.danger};

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::encounter::outcome_recorder_test {
 namespace {
@@ -25,7 +26,7 @@ scenario::Scenario drive_at_a_wreck(double d) {
 
 /// Looks every 10 ms until contact or the end.
 OutcomeRecorder watch(const scenario::Scenario& scenario, const collision::HarmModel& harm) {
-  const auto car = manoeuvre::default_car();
+  const auto car = prepare::default_car();
   sim::Stepper stepper(scenario, car);
   OutcomeRecorder recorder(harm);
   while (!stepper.over() && !recorder.look(stepper)) {
@@ -37,7 +38,7 @@ OutcomeRecorder watch(const scenario::Scenario& scenario, const collision::HarmM
 }
 
 TEST(OutcomeRecorder, SeesTheContactWhereGeometrySays) {
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   const collision::Outcome seen = watch(drive_at_a_wreck(0.0), harm).outcome();
   ASSERT_TRUE(seen.contact.has_value());
   // The ego's front is 2.25 m ahead of its centre of mass, half a wreck is 2.25 m.
@@ -47,7 +48,7 @@ TEST(OutcomeRecorder, SeesTheContactWhereGeometrySays) {
 }
 
 TEST(OutcomeRecorder, KeepsTheSmallestClearance) {
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   const collision::Outcome seen = watch(drive_at_a_wreck(3.5), harm).outcome();
   EXPECT_FALSE(seen.contact.has_value());
   EXPECT_NEAR(seen.clearance, 3.5 - 0.95 - 0.9, 1e-3);  // the two half widths
@@ -58,7 +59,7 @@ TEST(OutcomeRecorder, KeepsTheSmallestClearance) {
 
 // The wreck is 30 m behind after 4 s, and ever farther away.
 TEST(OutcomeRecorder, WhatWasPassedBeforeDoesNotCount) {
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   const OutcomeRecorder recorder = watch(drive_at_a_wreck(3.5), harm);
   const collision::Outcome since = recorder.outcome_since(4.0);
   EXPECT_GT(since.clearance, 80.0 - 50.0 - 5.0);
@@ -72,7 +73,7 @@ TEST(OutcomeRecorder, WhatWasPassedBeforeDoesNotCount) {
 
 // The ego swerves over a kerb at 20 m/s, slows down, and meets the wreck at 10 m/s.
 TEST(OutcomeRecorder, AKerbCrossedBeforeTheContactCountsAsItWasCrossed) {
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   scenario::Scenario scenario = drive_at_a_wreck(0.0);
   scenario.road.left_edge = 3.0;
   scenario.road.left_beyond = world::Beyond::kerb;
@@ -98,13 +99,13 @@ TEST(OutcomeRecorder, AKerbCrossedBeforeTheContactCountsAsItWasCrossed) {
 }
 
 TEST(OutcomeRecorder, WhoAppearsLaterIsMetLater) {
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   scenario::Scenario scenario = drive_at_a_wreck(3.5);
   const scenario::Recording late{{.time = 1.0, .X_WA = {{50.0, 0.0}, 0.0}, .speed = 0.0},
                                  {.time = 6.0, .X_WA = {{50.0, 0.0}, 0.0}, .speed = 0.0}};
   scenario.actors.push_back(
       {.id = 2, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0, .motion = late});
-  const auto car = manoeuvre::default_car();
+  const auto car = prepare::default_car();
   sim::Stepper stepper(scenario, car);
   OutcomeRecorder recorder(harm);
   while (!stepper.over() && !recorder.look(stepper)) {
@@ -124,7 +125,7 @@ TEST(OutcomeRecorder, WhoAppearsLaterIsMetLater) {
 // The wreck is beside; a car runs into the ego from behind: 12 m between centres, 2.45 m of them
 // the ego's rear and 2.25 m its own front, at 10 m/s.
 TEST(OutcomeRecorder, BeingHitFromBehindCounts) {
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   scenario::Scenario scenario = drive_at_a_wreck(3.5);
   scenario.actors.push_back({.id = 2,
                              .footprint = {.length = 4.5, .width = 1.8},

@@ -4,8 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/collision/harm.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/thinking/intent/model.h"
 
 namespace saca::encounter::provenance_test {
@@ -27,8 +28,8 @@ class ProvenanceTest : public testing::Test {
   }
 
   scenario::Scenario scenario_{.name = "x", .car = "compact_rwd_ev"};
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   intent::Model intent_ = intent::read_model("models/intent/model.safetensors").value();
 };
 

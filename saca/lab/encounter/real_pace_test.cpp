@@ -8,7 +8,8 @@
 
 #include "saca/lab/encounter/encounter.h"
 #include "saca/lab/encounter/wreck_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/language_model/scripted_model.h"
 #include "tests/support/meeting_clock.h"
@@ -54,8 +55,8 @@ class BlockedStory final : public Story {
 };
 
 Record played(const scenario::Scenario& scenario, Clock& clock, Story& story) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   language_model::ScriptedModel model(slowly(), clock);
   return run({.scenario = &scenario,
               .car = &car,

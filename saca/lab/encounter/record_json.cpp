@@ -8,7 +8,6 @@
 #include "saca/lab/encounter/provenance.h"
 #include "saca/lab/encounter/state_json.h"
 #include "saca/lab/encounter/verdict_json.h"
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/collision/loss.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/language_model/explanation_json.h"
@@ -16,6 +15,7 @@
 #include "saca/thinking/language_model/truth_json.h"
 #include "saca/thinking/memory/scene_json.h"
 #include "saca/thinking/rollout/collision_sequence.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::encounter {
 namespace {
@@ -99,7 +99,7 @@ json nearest_json(const collision::Outcome& outcome, std::span<const world::Acto
   if (!outcome.nearest) {
     return nullptr;
   }
-  return {{"to", collision::nearest_name(*outcome.nearest, actors)},
+  return {{"to", rollout::nearest_name(*outcome.nearest, actors)},
           {"time_s", outcome.nearest->time}};
 }
 
@@ -117,7 +117,7 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene, bo
       {"target_speed_mps", number_or_null(facts.plan.target_speed)},
       {"strength", number_or_null(facts.plan.strength)},
       {"refusal", driven ? json(nullptr) : json(facts.refusal())},
-      {"text", driven ? collision::describe(facts.outcome(), scene) : facts.refusal()},
+      {"text", driven ? rollout::describe(facts.outcome(), scene) : facts.refusal()},
       {"contact", driven ? first_contact_json(facts.outcome(), actors_of(scene)) : json(nullptr)},
       {"clearance_m", driven ? json(facts.outcome().clearance) : json(nullptr)},
       {"nearest", driven ? nearest_json(facts.outcome(), actors_of(scene)) : json(nullptr)},
@@ -270,7 +270,7 @@ json outcome_json(const collision::Outcome& outcome, std::span<const world::Acto
           {"harm", outcome.harm},
           {"clearance_m", outcome.clearance},
           {"nearest", nearest_json(outcome, actors)},
-          {"text", collision::describe(outcome, actors)}};
+          {"text", rollout::describe(outcome, actors)}};
 }
 
 /// The paper's False-Trigger Loss: what was done where doing nothing would have met nobody.

@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "saca/lab/encounter/encounter.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 
 namespace saca::encounter::record_json_test {
@@ -25,8 +26,8 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
        .footprint = {.shape = world::Shape::ellipse, .length = 0.5, .width = 0.5},
        .mass = 75.0,
        .motion = scenario::Script{.start = {.s = 40.0}, .behaviour = scenario::Behaviour::hold}});
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   const intent::Model& intent = intent::shipped_model();
   SteadyClock clock;
   Silence quiet;

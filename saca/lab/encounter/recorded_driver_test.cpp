@@ -2,7 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::encounter::recorded_driver_test {
 namespace {
@@ -30,8 +31,8 @@ class RecordedDriverTest : public testing::Test {
   std::optional<RecordedDriver> of(const scenario::Scenario& scenario, double from) {
     return recorded_driver(scenario, car_, harm_, from);
   }
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
 };
 
 TEST_F(RecordedDriverTest, BrakingIsTheHardestOverHalfASecond) {

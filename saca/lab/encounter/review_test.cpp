@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/language_model/scripted_model.h"
 
@@ -48,8 +49,8 @@ class ReviewTest : public testing::Test {
 
   scenario::Scenario scenario_{
       .name = "walker", .title = "A walker", .car = "x", .grip = 0.9, .duration = 4.0};
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   ManualClock clock_;
   std::string words_ = "1. NI hits pedestrian1.\n2. AES-L is not possible.";
   std::optional<Error> fault_;

@@ -4,7 +4,8 @@
 
 #include "saca/lab/encounter/encounter.h"
 #include "saca/lab/encounter/wreck_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 
 namespace saca::encounter::saca_method_test {
@@ -42,8 +43,8 @@ class SacaMethodTest : public testing::Test {
   }
 
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
 };
 
 TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSameSetupDoes) {

@@ -9,7 +9,7 @@
 
 #include "saca/base/core/csv.h"
 #include "saca/lab/encounter/wreck_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/runtime/wreck_for_test.h"
 
 namespace saca::encounter::trace_test {
@@ -19,7 +19,7 @@ using nlohmann::json;
 
 /// A short film of a car that turns before a wreck, made by hand.
 struct Film {
-  manoeuvre::Car car = manoeuvre::default_car();
+  manoeuvre::Car car = prepare::default_car();
   scenario::Scenario scenario{.name = "wreck", .title = "A wreck", .source = "made up", .car = "x"};
   Setup setup{.scenario = &scenario, .car = &car};
   Record record;

@@ -38,7 +38,7 @@ class CaseCheckTest : public testing::Test {
     return one;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
   const intent::Model& intent_ = intent::shipped_model();
   preview::ForecastTools tools_{&car_, &harm_};

@@ -4,8 +4,8 @@
 #include <exception>
 #include <utility>
 
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/reflex/threat.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::eval {
 namespace {

@@ -76,7 +76,7 @@ class ComparisonTest : public testing::Test {
   }
 
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
   memory::Experience experience_;
   learned_danger::Network danger_ =

@@ -18,7 +18,7 @@ CrashCase example() {
     slower.name = "fars_2016_40001";
     return slower;
   }();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const CrashFound found =
       find_crash(family, std::nullopt, 3, "compact_rwd_ev", car, shipped_harm(), 5);
   CrashCase one{

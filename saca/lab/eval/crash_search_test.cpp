@@ -19,7 +19,7 @@ class CrashSearch : public testing::Test {
   }
 
   families::Family family_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
 };
 

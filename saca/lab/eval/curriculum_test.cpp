@@ -73,7 +73,7 @@ class CurriculumTest : public testing::Test {
       fmt::format("saca_curriculum_{}_{}", getpid(),
                   testing::UnitTest::GetInstance()->current_test_info()->name());
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
 };
 

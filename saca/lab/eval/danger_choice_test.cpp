@@ -4,7 +4,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/learned_danger/networks_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "tests/support/scenes.h"
 
@@ -20,14 +20,14 @@ learned_danger::Network by_distance() {
 }
 
 world::Scene scene_at(double speed) {
-  world::Scene scene = test::ego_at(speed, manoeuvre::footprint(manoeuvre::default_car()));
+  world::Scene scene = test::ego_at(speed, manoeuvre::footprint(prepare::default_car()));
   scene.road.left_edge = 8.75;
   scene.road.right_edge = -8.75;
   return scene;
 }
 
 TEST(OfLeastDanger, BeforeOneThatStandsAheadTheHardestBrakingIsFarthestFromIt) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   world::Scene scene = scene_at(15.0);
   scene.actors.push_back(test::car(1, {18.0, 0.0}));
   for (const Beside beside : {Beside::each, Beside::all}) {
@@ -39,7 +39,7 @@ TEST(OfLeastDanger, BeforeOneThatStandsAheadTheHardestBrakingIsFarthestFromIt) {
 }
 
 TEST(OfLeastDanger, BesideOneThatIsAlongsideTheLaneChangeAwayIs) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   world::Scene scene = scene_at(15.0);
   scene.actors.push_back(test::car(1, {0.5, 2.4}, {15.0, 0.0}));
   const std::vector<Plan> plans{
@@ -52,15 +52,14 @@ TEST(OfLeastDanger, WithNobodyAheadTheFirstOfEqualOnesIsTaken) {
   const world::Scene scene = scene_at(15.0);
   const std::vector<Plan> plans{{PolicyId::aes_right, {}}, {PolicyId::aeb, {}}};
   EXPECT_EQ(
-      of_least_danger(scene, plans, manoeuvre::default_car(), by_distance(), Beside::all).policy,
+      of_least_danger(scene, plans, prepare::default_car(), by_distance(), Beside::all).policy,
       PolicyId::aes_right);
-  EXPECT_THROW(
-      (void)of_least_danger(scene, {}, manoeuvre::default_car(), by_distance(), Beside::all),
-      ContractViolation);
+  EXPECT_THROW((void)of_least_danger(scene, {}, prepare::default_car(), by_distance(), Beside::all),
+               ContractViolation);
 }
 
 TEST(DrivablePlans, AtACrawlAreThoseThatNeedNoSpeed) {
-  for (const Plan& plan : drivable_plans(manoeuvre::default_car(), scene_at(1.0))) {
+  for (const Plan& plan : drivable_plans(prepare::default_car(), scene_at(1.0))) {
     EXPECT_TRUE(plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention);
   }
 }

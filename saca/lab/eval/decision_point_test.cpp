@@ -9,8 +9,8 @@
 namespace saca::eval::decision_point_test {
 namespace {
 
-using manoeuvre::default_car;
 using manoeuvre::PolicyId;
+using prepare::default_car;
 
 // 15 m/s towards a car 60 m ahead: T1 = 1.3 s are left after (60 - 1.3 * 15) m / (15 m/s) = 2.7 s;
 // looked at every 10 ms, and exact to 10 ms.

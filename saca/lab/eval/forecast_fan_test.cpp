@@ -18,7 +18,7 @@ class ForecastFanTest : public testing::Test {
   }
 
   scenario::Scenario scenario_ = car_that_brakes();
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
 };
 

@@ -39,7 +39,7 @@ TEST(ForecastSamples, OfWhoGoesOnAreForetoldByAll) {
   scenario.duration = 6.0;
   scenario.actors[0].motion = scenario::Script{
       .start = {.s = 60.0}, .speed = 20.0, .behaviour = scenario::Behaviour::constant_velocity};
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   const auto samples = forecast_samples(stage, shipped_models()).value();
@@ -61,7 +61,7 @@ TEST(ForecastSamples, OfWhoGoesOnAreForetoldByAll) {
 // It brakes at 6 m/s2 from 2 s on: it acts, and straight on is wrong.
 TEST(ForecastSamples, OfWhoBrakesAct) {
   const scenario::Scenario scenario = car_that_brakes();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   for (const ForecastSample& one : forecast_samples(stage, shipped_models()).value()) {
@@ -85,7 +85,7 @@ scenario::Scenario recorded_for(double seconds) {
 // later nothing is forecast.
 TEST(ForecastSamples, OfWhoIsRecordedEndWithTheRecording) {
   const scenario::Scenario scenario = recorded_for(5.0);
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   EXPECT_EQ(forecast_samples(stage, shipped_models()).value().size(), 4U);  // 0.5 to 2 s
@@ -93,7 +93,7 @@ TEST(ForecastSamples, OfWhoIsRecordedEndWithTheRecording) {
 
 TEST(ForecastSamples, CountWithinTheirWindow) {
   const scenario::Scenario scenario = recorded_for(8.0);
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   const auto num = [&](const ForecastWindow& window) {

@@ -165,7 +165,7 @@ TEST(Imitator, RefusesOtherTensors) {
 TEST(Imitator, IsAMethod) {
   const Imitator shipped = Imitator::read("models/imitator/compact_rwd_ev.safetensors").value();
   SteadyClock clock;
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const SuiteRow row =
       run_encounter({.number = 0, .family = "made", .scenario = only_left_helps(), .twin = {}},

@@ -44,7 +44,7 @@ TEST(ScoredChoices, AreMethods) {
 // What only a lane change to the left avoids: what was carried out counts, not what was said.
 TEST(ModelScore, IsOfWhatWasCarriedOut) {
   SteadyClock clock;
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   language_model::ScriptedModel model(&wavering, clock);
   const std::vector<SuiteRow> rows{run_encounter(

@@ -11,8 +11,8 @@
 namespace saca::eval::oracle_test {
 namespace {
 
-using manoeuvre::default_car;
 using manoeuvre::PolicyId;
+using prepare::default_car;
 
 TEST(Oracle, AsWrittenTheMildestOfTheHarmlessIsBest) {
   const Oracle told =

@@ -27,7 +27,7 @@ TEST(PaperTables, HaveDifferentNames) {
 
 // The ego comes at 10, 11, ... 15 m/s, the truck is where it is in the shipped scene.
 TEST(PaperTables, TheIntersectionIsThatOfTheScenarioAtSixSpeeds) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const auto all = encounters_of(*find_paper_table("table_2"), scenarios, car).value();
   ASSERT_EQ(all.size(), 6U);
   const auto shipped =
@@ -55,15 +55,14 @@ TEST(PaperTables, TheIntersectionIsThatOfTheScenarioAtSixSpeeds) {
 }
 
 TEST(PaperTables, TheOneWayRoadIsOneConditionAndItsTwinLacksTheObstacle) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const auto all = encounters_of(*find_paper_table("table_3"), scenarios, car).value();
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].scenario.actors.size(), all[0].twin->actors.size() + 1);
 }
 
 TEST(PaperTables, WithoutTheirScenariosAnErrorNamesTheFile) {
-  const auto none =
-      encounters_of(*find_paper_table("table_3"), "nowhere", manoeuvre::default_car());
+  const auto none = encounters_of(*find_paper_table("table_3"), "nowhere", prepare::default_car());
   ASSERT_FALSE(none.has_value());
   EXPECT_THAT(none.error().message, testing::HasSubstr("one_way.toml"));
 }

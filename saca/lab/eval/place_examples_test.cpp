@@ -19,7 +19,7 @@ double way(double time) {
 // Seen exactly for 6 s: what comes 3 s later is known of the looks at 0, 0.1, ... 2.9 s at least.
 TEST(PlaceExamples, HoldWhatIsSeenAndWhatComes) {
   const scenario::Scenario scenario = car_that_brakes();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   const auto sequences = place_examples(stage).value();
@@ -47,7 +47,7 @@ TEST(PlaceExamples, AreOfVehiclesOnly) {
   scenario::Scenario scenario = car_that_brakes();
   scenario.actors[0].kind = world::ActorKind::pedestrian;
   std::get<scenario::Script>(scenario.actors[0].motion).speed = 5.0;
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   EXPECT_TRUE(place_examples(stage).value().empty());

@@ -51,7 +51,7 @@ const scenario::Script& script_of(const scenario::Scenario& scenario, std::size_
 CellResult played(const Regulation& regulation, const RegulationCell& cell,
                   const std::string& method) {
   static SteadyClock clock;
-  static const manoeuvre::Car car = manoeuvre::default_car();
+  static const manoeuvre::Car car = prepare::default_car();
   static const collision::HarmModel harm = shipped_harm();
   const SuiteEncounter encounter{
       .number = 0,
@@ -181,7 +181,7 @@ TEST(RegulationGeometry, WhoCrossesMeetsTheFrontAtTheStatedOverlap) {
   EXPECT_NEAR(walker.start.s - 0.25, 2.5 + 4.0 * 50.0 / 3.6, 1e-9);
 
   // as the world plays it, nobody braking
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   sim::Stepper stepper(scenario, car);
   while (stepper.time() < 4.0 - 1e-9) {
     stepper.advance({});
@@ -214,7 +214,7 @@ TEST(RegulationGeometry, ParkedCarsHideTheChild) {
               1e-9);
   EXPECT_TRUE(scenario.perception.occlusion);
 
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   sim::Stepper stepper(scenario, car);
   EXPECT_EQ(stepper.perceive().actors.size(), 2U);
 }

@@ -26,7 +26,7 @@ class Examples : public testing::Test {
     return now.value() ? std::optional(now.value()->situation) : std::nullopt;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
 };
 

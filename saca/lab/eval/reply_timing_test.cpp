@@ -60,7 +60,7 @@ TEST(ReplyTiming, WhoNeverAnswersIsAskedAndWhoCannotBeReachedIsAnError) {
 
 TEST(ReplyTiming, TheFirstQuestionIsOfTheForecastsMadeAtFirst) {
   SteadyClock clock;
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const runtime::PlanesSetup setup{.forecast = {&car, &harm}, .clock = &clock};
   const SuiteEncounter dangerous{

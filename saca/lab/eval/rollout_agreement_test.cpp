@@ -16,16 +16,16 @@
 #include "saca/lab/eval/scenes_for_test.h"
 #include "saca/lab/families/family.h"
 #include "saca/lab/families/splits.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/collision/ordering.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::eval::rollout_agreement_test {
 namespace {
 
-using manoeuvre::default_car;
 using manoeuvre::PolicyId;
+using prepare::default_car;
 
 /// Family by family in turn, from the tuning split, with chance drawn; those that trigger.
 struct Encounters {

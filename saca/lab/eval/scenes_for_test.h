@@ -6,15 +6,16 @@
 
 #include "saca/lab/encounter/method.h"
 #include "saca/lab/eval/forecast_score.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/scenario/scenario.h"
 #include "saca/onboard/collision/harm.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/thinking/intent/shipped_model.h"
 
 namespace saca::eval {
 
 inline collision::HarmModel shipped_harm() {
-  return collision::read_harm("data/harm.toml").value();
+  return prepare::read_harm("data/harm.toml").value();
 }
 
 inline scenario::Scenario shipped_scenario(const std::string& name) {
@@ -69,7 +70,7 @@ inline scenario::Scenario car_that_brakes() {
 
 /// A closed loop to be shown as the truth to methods that may not look at it.
 struct UnseenTruth {
-  manoeuvre::Car car = manoeuvre::default_car();
+  manoeuvre::Car car = prepare::default_car();
   collision::HarmModel harm = shipped_harm();
   scenario::Scenario scenario = standing_car(20.0, 200.0);
   encounter::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};

@@ -68,7 +68,7 @@ class Shadow : public testing::Test {
     return drive.has_value() ? "" : drive.error().message;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   ShadowSetup setup_{&car_, &intent::shipped_model(), {}};
   scenario::Scenario scenario_;
 };
@@ -264,7 +264,7 @@ TEST_F(ShadowOfSaca, DoesNothingBesideWhoKeepsHisLane) {
 
 TEST_F(ShadowOfSaca, IsOfTheSameCar) {
   drive({.speed = 10.0}, 3.0);
-  const manoeuvre::Car other = manoeuvre::default_car();
+  const manoeuvre::Car other = prepare::default_car();
   planes_.forecast.car = &other;
   EXPECT_THROW((void)shadow_drive(scenario_, setup_), ContractViolation);
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "saca/onboard/collision/describe.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::eval {
 namespace {
@@ -29,7 +29,8 @@ std::string figure(const Oracle& oracle, PolicyId policy) {
   const Verdict& verdict = oracle.of(policy);
   const auto& harm = verdict.expected.harm;
   return fmt::format("{} {:.4f} ({:.4f} to {:.4f}; as written: {})", name(policy), harm.value,
-                     harm.low, harm.high, describe(verdict.written.facts.outcome(), oracle.scene));
+                     harm.low, harm.high,
+                     rollout::describe(verdict.written.facts.outcome(), oracle.scene));
 }
 
 }  // namespace

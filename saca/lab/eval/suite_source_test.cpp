@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::eval::suite_source_test {
@@ -18,7 +18,7 @@ SuiteDraw draw_of(const std::string& suite, families::Split split = families::Sp
           .split = split,
           .test_log = std::nullopt,
           .car = "compact_rwd_ev",
-          .footprint = manoeuvre::footprint(manoeuvre::default_car())};
+          .footprint = manoeuvre::footprint(prepare::default_car())};
 }
 
 TEST(SuiteSource, DrawsTheSameEncounterAgain) {

@@ -30,7 +30,7 @@ class SuiteTest : public testing::Test {
   }
 
   SteadyClock clock_;
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
 };
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "saca/lab/eval/scenes_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::eval::survey_test {
@@ -28,7 +28,7 @@ Finding with(PolicyId policy, double harm) {
 
 // An interruption after the first look; whatever was found is not looked for again.
 TEST(Survey, GoesOnWhereItWasInterrupted) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const SuiteSource source = SuiteSource::open({.scenarios = "scenarios",
                                                 .suite = "crossing",

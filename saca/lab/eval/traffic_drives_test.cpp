@@ -121,7 +121,7 @@ TEST_F(TrafficDrives, GiveForecastsOfTheOthersWhereTheyAreKnown) {
   write("one.xml", road(car(7, 30.0, 0.0, 10.0, 90) + car(8, 60.0, 0.0, 10.0, 90)));
   for (const TrafficDrive& drive : found().value().drives) {
     const PlayedDrive played = played_drive(drive).value();
-    const manoeuvre::Car ego = manoeuvre::default_car();
+    const manoeuvre::Car ego = prepare::default_car();
     const collision::HarmModel harm = shipped_harm();
     const encounter::Stage stage{&played.scenario, &ego, &harm, &intent::shipped_model(), {}, {}};
     const auto samples = forecast_samples(stage, shipped_models(), played.window).value();

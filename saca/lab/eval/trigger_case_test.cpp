@@ -21,7 +21,7 @@ class TriggerCase : public testing::Test {
                            encounter::made_with({&car_, &harm_}, intent::shipped_model(), "a car"));
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
 };
 

@@ -8,7 +8,7 @@
 namespace saca::eval::whatif_test {
 namespace {
 
-using manoeuvre::default_car;
+using prepare::default_car;
 using testing::AllOf;
 using testing::DoubleNear;
 using testing::ElementsAre;

@@ -30,7 +30,7 @@ class Yardstick : public testing::Test {
     return loop;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   collision::HarmModel harm_ = shipped_harm();
   scenario::Scenario scenario_;
   encounter::Stage stage_{&scenario_, &car_, &harm_, &intent::shipped_model(), {}, {}};

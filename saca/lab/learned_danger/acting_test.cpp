@@ -8,7 +8,7 @@
 #include "saca/base/core/contract.h"
 #include "saca/base/world/scene.h"
 #include "saca/lab/learned_danger/networks_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/danger/car_limits.h"
 
@@ -46,7 +46,7 @@ class Acting : public testing::Test {
     return situation;
   }
 
-  const manoeuvre::Car car_ = manoeuvre::default_car();
+  const manoeuvre::Car car_ = prepare::default_car();
 };
 
 TEST_F(Acting, TakesTheDemandOfLeastQ) {

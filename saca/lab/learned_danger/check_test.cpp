@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "saca/lab/learned_danger/networks_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::learned_danger::check_test {
@@ -68,7 +68,7 @@ TEST(CheckFigures, CountPincers) {
 
 // What is not wanted, or told unsafe, is not driven; what is driven does not depend on the others.
 TEST(DrivenByEvasion, IsWhatIsToldSafeInABinThatIsWanted) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const Network network = Network::from(networks_that_hand_on(), "weights").value();
   std::array<bool, num_bins> all{};
   all.fill(true);

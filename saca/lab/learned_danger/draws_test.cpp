@@ -6,7 +6,7 @@
 
 #include "saca/lab/learned_danger/arc_evasions.h"
 #include "saca/lab/learned_danger/ego.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/danger/car_limits.h"
 #include "saca/thinking/danger/danger.h"
 #include "saca/thinking/danger/intrusion.h"
@@ -18,7 +18,7 @@ const world::Footprint body{.length = 4.3, .width = 1.8, .centre_x = 0.1};
 
 class Draws : public testing::Test {
  protected:
-  const manoeuvre::Car car_ = manoeuvre::default_car();
+  const manoeuvre::Car car_ = prepare::default_car();
   std::mt19937_64 random_{11};
 };
 

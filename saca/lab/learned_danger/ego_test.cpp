@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
@@ -19,7 +19,7 @@ class DrivenCar : public testing::Test {
   [[nodiscard]] DemandDrivenCar rolling(double speed, double grip) const {
     return {car_, manoeuvre::rolling_state(car_, test::ego_alone(speed, grip).ego, grip), grip};
   }
-  const manoeuvre::Car car_ = manoeuvre::default_car();
+  const manoeuvre::Car car_ = prepare::default_car();
 };
 
 // From 20 m/s on grip 0.8 a constant 7.85 m/s^2 needs 25.5 m; what passes until the brakes grip and

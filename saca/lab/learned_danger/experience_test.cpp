@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/danger/car_limits.h"
 
 namespace saca::learned_danger::experience_test {
@@ -20,7 +20,7 @@ class ExperienceTest : public testing::Test {
  protected:
   ExperienceTest() { add_experience(all_, made_, body); }
 
-  const manoeuvre::Car car_ = manoeuvre::default_car();
+  const manoeuvre::Car car_ = prepare::default_car();
   const danger::DangerModel model_{danger::avoidance_of(car_, 1.0), body, {}};
   const Transitions made_ = made_transitions(car_, body, model_, {}, 12, 7);
   Experience all_;

@@ -12,7 +12,7 @@
 #include "saca/base/config/tensors.h"
 #include "saca/lab/learned_danger/networks_for_test.h"
 #include "saca/lab/learned_danger/state.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::learned_danger::learned_test {
@@ -53,7 +53,7 @@ class Learned : public testing::Test {
             .state = {-distance, 0.0, 0.0, speed}};
   }
 
-  const manoeuvre::Car car_ = manoeuvre::default_car();
+  const manoeuvre::Car car_ = prepare::default_car();
   std::array<double, num_bins> metres_{};
 };
 

@@ -9,7 +9,7 @@
 #include "saca/lab/learned_danger/acting.h"
 #include "saca/lab/learned_danger/learned.h"
 #include "saca/lab/learned_danger/networks_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/danger/risk.h"
 #include "tests/support/scenes.h"
@@ -26,12 +26,12 @@ Network network() {
 }
 
 world::Scene scene_at(double speed) {
-  return test::ego_at(speed, manoeuvre::footprint(manoeuvre::default_car()));
+  return test::ego_at(speed, manoeuvre::footprint(prepare::default_car()));
 }
 
 // In a steady turn of radius r the front wheels of a car without slip stand at atan(wheelbase / r).
 TEST(PerceivedEgo, HasTheControlsThatItsMotionNeeds) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   constexpr double r = 50.0;
   const Ego turning = perceived_ego(car, {.v_B = {10.0, 0.0}, .yaw_rate = -10.0 / r, .a_B = {}});
   EXPECT_NEAR(turning.steering, -std::atan((car.cg_to_front_axle + car.cg_to_rear_axle) / r),
@@ -50,7 +50,7 @@ TEST(MostDangerous, AreThreeOfFourWithTheHighestValue) {
   for (const double x : {70.0, 20.0, 90.0, 9.0}) {
     scene.actors.push_back(test::car(static_cast<std::uint8_t>(scene.actors.size() + 1), {x, 0.0}));
   }
-  const State state = most_dangerous(network(), manoeuvre::default_car(), scene);
+  const State state = most_dangerous(network(), prepare::default_car(), scene);
   ASSERT_EQ(state.obstacles.size(), 3U);
   EXPECT_EQ(state.obstacles[0].X_WO.p.x, 9.0);
   EXPECT_EQ(state.obstacles[1].X_WO.p.x, 20.0);
@@ -58,13 +58,12 @@ TEST(MostDangerous, AreThreeOfFourWithTheHighestValue) {
 }
 
 TEST(MostDangerous, NobodyIsNobody) {
-  EXPECT_TRUE(
-      most_dangerous(network(), manoeuvre::default_car(), scene_at(10.0)).obstacles.empty());
+  EXPECT_TRUE(most_dangerous(network(), prepare::default_car(), scene_at(10.0)).obstacles.empty());
 }
 
 // One scene by two ways: in the world's frame, and in the obstacle's.
 TEST(MostDangerous, TellsWhatTheObstaclesFrameTells) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   world::Scene scene = scene_at(14.0);
   scene.ego.X_WB = {{3.0, -2.0}, 0.4};
   scene.ego.v_B = {14.0, 0.5};

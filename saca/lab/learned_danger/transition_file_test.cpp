@@ -8,7 +8,7 @@
 
 #include "saca/base/config/hdf5_reader.h"
 #include "saca/base/core/file.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/danger/car_limits.h"
 
 namespace saca::learned_danger::transition_file_test {
@@ -17,7 +17,7 @@ namespace {
 class TransitionFile : public testing::Test {
  protected:
   TransitionFile() {
-    const manoeuvre::Car car = manoeuvre::default_car();
+    const manoeuvre::Car car = prepare::default_car();
     const world::Footprint body{.length = 4.3, .width = 1.8, .centre_x = 0.1};
     const danger::DangerModel model(danger::avoidance_of(car, 1.0), body, {});
     part_ = {.car = "compact_rwd_ev", .seed = 18446744073709551615U};

@@ -8,7 +8,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/learned_danger/networks_for_test.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/danger/car_limits.h"
 
 namespace saca::learned_danger::transitions_test {
@@ -25,7 +25,7 @@ class TransitionsTest : public testing::Test {
   static double at(const std::vector<float>& rows, std::size_t row, std::size_t feature) {
     return rows[row * num_features + feature];
   }
-  const manoeuvre::Car car_ = manoeuvre::default_car();
+  const manoeuvre::Car car_ = prepare::default_car();
   const danger::DangerModel model_{danger::avoidance_of(car_, 1.0), body, {}};
 };
 

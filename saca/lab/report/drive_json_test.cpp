@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/report/html_report.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 
 namespace saca::report::drive_json_test {
 namespace {
@@ -19,7 +19,7 @@ DriveRecord record_of(PolicyId policy, double horizon) {
   DriveRecord record{.program = "test",
                      .command = "none",
                      .car_name = "car </script>",
-                     .car = manoeuvre::default_car(),
+                     .car = prepare::default_car(),
                      .plan = {policy, std::nullopt}};
   record.scene.ego.v_B = {14.0, 0.0};
   record.scene.grip = 0.9;

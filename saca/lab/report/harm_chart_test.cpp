@@ -9,6 +9,7 @@
 
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/report/xml_for_test.h"
 
 namespace saca::report::harm_chart_test {
@@ -30,7 +31,7 @@ double above_rest(double intercept, double exponent) {
 }
 
 TEST(HarmChart, CurvesAreThoseOfTheSources) {
-  const auto model = collision::read_harm("data/harm.toml").value();
+  const auto model = prepare::read_harm("data/harm.toml").value();
   const auto risks = injury_risks(model, {0.0, from_kmh(50.0)});
   EXPECT_EQ(risks.size(), 9U);
   for (const HarmRisk& risk : risks) {
@@ -49,7 +50,7 @@ TEST(HarmChart, CurvesAreThoseOfTheSources) {
 }
 
 TEST(HarmChart, HarmIsWeightedRisk) {
-  const auto model = collision::read_harm("data/harm.toml").value();
+  const auto model = prepare::read_harm("data/harm.toml").value();
   const std::vector<double> speeds{from_kmh(70.0)};
   const auto risks = injury_risks(model, speeds);
   const auto harms = person_harms(model, speeds);
@@ -62,7 +63,7 @@ TEST(HarmChart, HarmIsWeightedRisk) {
 }
 
 TEST(HarmChart, ThePictureShowsAllCurvesWithTheirSources) {
-  const auto model = collision::read_harm("data/harm.toml").value();
+  const auto model = prepare::read_harm("data/harm.toml").value();
   const auto all = xml_elements(harm_svg(model));
   int curves = 0;
   for (const XmlElement& element : all) {
@@ -129,7 +130,7 @@ TEST(HarmChart, ThePictureInTheDocumentsShowsTheSources) {
   EXPECT_FALSE(holds([](double kmh) { return above_rest(-6.9, 0.095 * kmh); })) << "it can tell";
   const PlotRead occupants = read_plot(all, "Occupants of vehicles");
   EXPECT_EQ(occupants.curves_px.size(), 3U);
-  EXPECT_EQ(harm_svg(collision::read_harm("data/harm.toml").value()),
+  EXPECT_EQ(harm_svg(prepare::read_harm("data/harm.toml").value()),
             read_file("docs/harm.svg").value())
       << "saca harm --svg docs/harm.svg makes it anew";
 }

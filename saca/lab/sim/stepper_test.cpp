@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "saca/base/core/contract.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/scenario/motion.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 
 namespace saca::sim::stepper_test {
 namespace {
@@ -33,7 +33,7 @@ void advance(Stepper& stepper, int num_steps) {
 
 TEST(Stepper, TimeIsAStepCount) {
   const scenario::Scenario scenario = behind_a_braking_lead();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 3'000);
   EXPECT_DOUBLE_EQ(stepper.time(), 3.0);
@@ -44,7 +44,7 @@ TEST(Stepper, TimeIsAStepCount) {
 
 TEST(Stepper, TheEgoFollowsTheScenarioUntilTheWheelIsTaken) {
   const scenario::Scenario scenario = behind_a_braking_lead();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 1'000);
   EXPECT_NEAR(stepper.ego().X_WB.p.x, 20.0, 1e-9);
@@ -62,7 +62,7 @@ TEST(Stepper, TheEgoFollowsTheScenarioUntilTheWheelIsTaken) {
 
 TEST(Stepper, PerceivesMotionAsATrackerWould) {
   const scenario::Scenario scenario = behind_a_braking_lead();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 900);
   EXPECT_NEAR(stepper.scene().actors[0].v_W.x, 15.0, 1e-6);
@@ -85,7 +85,7 @@ TEST(Stepper, AnActorIsNotThereBeforeItsFirstSample) {
                            {.time = 4.0, .X_WA = {{100.0, 3.5}, 0.0}, .speed = 10.0}};
   scenario.actors.push_back(
       {.id = 2, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0, .motion = late});
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 1'990);
   EXPECT_EQ(stepper.scene().actors.size(), 1U);
@@ -131,7 +131,7 @@ double gap_behind(const Stepper& stepper) {
 // through.
 TEST(Stepper, ARecordedFollowerReactsFromWhenTheWheelIsTaken) {
   const scenario::Scenario scenario = ahead_of_a_follower(recorded_behind());
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper recorded(scenario, car);
   advance(recorded, 5'000);
   EXPECT_NEAR(gap_behind(recorded), 11.9, 1e-6);  // nobody drives: it keeps to its recording
@@ -159,7 +159,7 @@ TEST(Stepper, OthersForetellWhatTheStepperThenDoes) {
       .start = {.s = -16.6}, .speed = 20.0, .behaviour = scenario::Behaviour::follow};
   follow.law = drivers::content_with(drivers::usual_driver(20.0), 20.0, 11.9);
   const scenario::Scenario scenario = ahead_of_a_follower(follow);
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 500);
   stepper.take_the_wheel();
@@ -190,7 +190,7 @@ TEST(Stepper, OthersForetellWhatTheStepperThenDoes) {
 
 TEST(Stepper, ChanceChangesCarGripAndStart) {
   const scenario::Scenario scenario = behind_a_braking_lead();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   scenario::Chance chance;
   chance.car = {.grip = 0.8, .mass = 1.1, .speed = 0.4};
   Stepper stepper(scenario, car, chance);
@@ -206,7 +206,7 @@ TEST(Stepper, ChanceChangesCarGripAndStart) {
 TEST(Stepper, CuesArePerceivedFromTheStart) {
   scenario::Scenario scenario = behind_a_braking_lead();
   scenario.cues = {{world::CueKind::work_zone, {40.0, -5.0}}};
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   for (const world::Scene& scene : {stepper.scene(), stepper.perceive()}) {
     ASSERT_EQ(scene.cues.size(), 1U);
@@ -225,7 +225,7 @@ TEST(Stepper, GhostsArePerceivedButNotThere) {
   ghost.existence = 0.3;
   std::get<scenario::Script>(ghost.motion).start.s = 30.0;
   scenario.actors.insert(scenario.actors.begin(), ghost);
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   ASSERT_EQ(stepper.scene().actors.size(), 1U);
   EXPECT_EQ(stepper.scene().actors[0].id, 1);
@@ -241,7 +241,7 @@ TEST(Stepper, GhostsArePerceivedButNotThere) {
 
 TEST(Stepper, BetweenTheTrafficsStepsActorsGoOn) {
   const scenario::Scenario scenario = behind_a_braking_lead();
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 507);
   EXPECT_NEAR(stepper.scene().actors[0].X_WA.p.x, 60.0 + 15.0 * 0.507, 1e-9);

@@ -6,7 +6,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/core/units.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "tests/support/scenes.h"
 
 namespace saca::tune::draws_test {
@@ -18,7 +18,7 @@ constexpr manoeuvre::Plan brake{manoeuvre::PolicyId::aeb, std::nullopt};
 constexpr manoeuvre::Plan drift{manoeuvre::PolicyId::t_drift_right, std::nullopt};
 
 TEST(Draws, SameSeedSameEndingsOnAnyThreads) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const auto a = draw_endings(car, brake, ego_alone(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 1);
   const auto b = draw_endings(car, brake, ego_alone(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 3);
   ASSERT_EQ(a.size(), 12U);
@@ -34,7 +34,7 @@ TEST(Draws, SameSeedSameEndingsOnAnyThreads) {
 
 TEST(Draws, TheHorizonMayComeFirst) {
   const Ending ending = ride_to_end(
-      manoeuvre::Ride(manoeuvre::default_car(), brake, ego_alone(20.0, 0.9), 0.9), 1.0, true);
+      manoeuvre::Ride(prepare::default_car(), brake, ego_alone(20.0, 0.9), 0.9), 1.0, true);
   EXPECT_FALSE(ending.ended);
   EXPECT_NEAR(ending.time, 1.0, 1e-9);
   EXPECT_GT(ending.speed, 5.0);
@@ -52,9 +52,9 @@ TEST(Draws, AcrossIsWithinTenDegreesOfTheSideAndAtRest) {
 }
 
 TEST(Draws, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW((void)draw_endings(manoeuvre::default_car(), drift, ego_alone(2.0, 0.9), 0.9, 5.0, 1,
-                                  1, 0, 1),
-               ContractViolation);
+  EXPECT_THROW(
+      (void)draw_endings(prepare::default_car(), drift, ego_alone(2.0, 0.9), 0.9, 5.0, 1, 1, 0, 1),
+      ContractViolation);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "saca/base/core/csv.h"
-#include "saca/onboard/vehicle/parameters.h"
+#include "saca/lab/prepare/vehicle_file.h"
 
 namespace saca::tune {
 namespace {
@@ -57,7 +57,7 @@ Result<std::string> fitted_car_file(std::string_view base, std::string_view sour
     text += found != fit.parameters.end() ? fitted_line(*found, names) : std::string(line);
     text += '\n';
   }
-  const Result<vehicle::Vehicle> read = vehicle::parse_vehicle(text, source);
+  const Result<vehicle::Vehicle> read = prepare::parse_vehicle(text, source);
   if (!read.has_value()) {
     return read.error();
   }

@@ -14,7 +14,7 @@ namespace saca::tune {
 /// @param base    text of the file that `fit` began with
 /// @param source  its name, for messages
 /// @param logs    names of the logs, for the comments
-/// @return        a text that `vehicle::parse_vehicle` reads as fit.car; Error::Code::malformed
+/// @return        a text that `prepare::parse_vehicle` reads as fit.car; Error::Code::malformed
 ///                where the base does not write a fitted key as `key = value` on a line of its own
 [[nodiscard]] Result<std::string> fitted_car_file(std::string_view base, std::string_view source,
                                                   std::string_view logs, const VehicleFit& fit);

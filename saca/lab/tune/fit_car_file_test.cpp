@@ -5,8 +5,8 @@
 
 #include "saca/base/core/csv.h"
 #include "saca/base/core/file.h"
-#include "saca/onboard/vehicle/default_car.h"
-#include "saca/onboard/vehicle/parameters.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
+#include "saca/lab/prepare/vehicle_file.h"
 
 namespace saca::tune::fit_car_file_test {
 namespace {
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class FittedCarFile : public testing::Test {
  protected:
   std::string base_ = read_file("data/vehicles/compact_rwd_ev.toml").value();
-  VehicleFit fit_{.car = vehicle::default_car()};
+  VehicleFit fit_{.car = prepare::default_vehicle()};
 
   void SetUp() override {
     fit_.car.steering_lag = 0.0712;
@@ -47,7 +47,7 @@ TEST_F(FittedCarFile, ChangesTheFittedLinesAndNoOther) {
               testing::ElementsAre(
                   "lag_s = 0.0712  # fitted to a.csv, b.csv: 0.07 to 0.072 (95 %); before: 0.05",
                   "lag_s = 0.0911  # fitted to a.csv, b.csv: 0.09 to 0.092 (95 %); before: 0.06"));
-  const vehicle::Vehicle read = vehicle::parse_vehicle(text, "car.toml").value();
+  const vehicle::Vehicle read = prepare::parse_vehicle(text, "car.toml").value();
   EXPECT_EQ(read.steering_lag, 0.0712);
   EXPECT_EQ(read.brake_lag, 0.0911);
   EXPECT_EQ(read.motor_lag, fit_.car.motor_lag);  // another `lag_s`

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::tune::fit_drive_test {
 namespace {
@@ -20,7 +20,8 @@ const Series& series_named(const Log& log, Signal signal) {
 }
 
 TEST(TestDriveLog, OfAnAntiLockStopDeceleratesWithNearlyTheGrip) {
-  const Log log = drive_test(vehicle::default_car(), {.speed = 20.0, .grip = 0.5, .noise = 0.0});
+  const Log log =
+      drive_test(prepare::default_vehicle(), {.speed = 20.0, .grip = 0.5, .noise = 0.0});
   double hardest = 0.0;
   for (const double a_x : series_named(log, Signal::a_x).values) {
     hardest = std::max(hardest, -a_x);
@@ -31,7 +32,7 @@ TEST(TestDriveLog, OfAnAntiLockStopDeceleratesWithNearlyTheGrip) {
 
 TEST(TestDriveLog, OfAStepTurnsAsSteadyTurningDoes) {
   const double steering = 0.02;
-  const Log log = drive_test(vehicle::default_car(),
+  const Log log = drive_test(prepare::default_vehicle(),
                              {.kind = TestKind::steer, .steering = steering, .noise = 0.0});
   const double yaw_rate = series_named(log, Signal::yaw_rate).values.back();
   const double speed = log.measured.front().values.back();
@@ -43,7 +44,7 @@ TEST(TestDriveLog, OfAStepTurnsAsSteadyTurningDoes) {
 }
 
 TEST(TestDriveLog, HasTheNoiseThatWasAskedForAndTheSameForTheSameSeed) {
-  const vehicle::Vehicle car = vehicle::default_car();
+  const vehicle::Vehicle car = prepare::default_vehicle();
   const Log clean = drive_test(car, {.kind = TestKind::steer, .noise = 0.0});
   const Log noisy = drive_test(car, {.kind = TestKind::steer, .noise = 2.0, .seed = 3});
   const Log again = drive_test(car, {.kind = TestKind::steer, .noise = 2.0, .seed = 3});
@@ -61,7 +62,7 @@ TEST(TestDriveLog, HasTheNoiseThatWasAskedForAndTheSameForTheSameSeed) {
 }
 
 TEST(TestDriveLog, RefusesWhatNobodyDrives) {
-  const vehicle::Vehicle car = vehicle::default_car();
+  const vehicle::Vehicle car = prepare::default_vehicle();
   EXPECT_THROW((void)drive_test(car, {.speed = 0.0}), ContractViolation);
   EXPECT_THROW((void)drive_test(car, {.grip = NAN}), ContractViolation);
   EXPECT_THROW((void)drive_test(car, {.interval = 0.1}), ContractViolation);

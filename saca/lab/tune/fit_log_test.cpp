@@ -7,8 +7,8 @@
 
 #include "saca/base/core/csv.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/tune/fit_drive.h"
-#include "saca/onboard/vehicle/default_car.h"
 
 namespace saca::tune::fit_log_test {
 namespace {
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const vehicle::Vehicle& usual_car() {
-  static const vehicle::Vehicle car = vehicle::default_car();
+  static const vehicle::Vehicle car = prepare::default_vehicle();
   return car;
 }
 

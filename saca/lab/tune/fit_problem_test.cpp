@@ -4,15 +4,15 @@
 
 #include <cmath>
 
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/tune/fit_drive.h"
-#include "saca/onboard/vehicle/default_car.h"
 
 namespace saca::tune::fit_problem_test {
 namespace {
 
 class Problem : public testing::Test {
  protected:
-  vehicle::Vehicle car_ = vehicle::default_car();
+  vehicle::Vehicle car_ = prepare::default_vehicle();
   std::vector<Log> logs_{drive_test(car_, {.kind = TestKind::steer, .turning = 1.0, .seed = 5})};
   FitProblem problem_{car_, 0.9, logs_};
   Eigen::VectorXd zero_ = Eigen::VectorXd::Zero(problem_.size());

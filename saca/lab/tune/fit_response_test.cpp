@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/tune/fit_drive.h"
-#include "saca/onboard/vehicle/default_car.h"
 
 namespace saca::tune::fit_response_test {
 namespace {
@@ -14,7 +14,7 @@ const TestDrive gentle{.speed = 12.0, .deceleration = 5.0, .lead_in = 0.2, .nois
 
 // Speeds at the rows by the plain loop that any simulation has: dead time in the brake line.
 std::vector<double> stepped_speeds(const Log& log, const vehicle::Vehicle& car, double grip) {
-  vehicle::VehicleState state = vehicle::rolling(car, 12.0);
+  vehicle::VehicleState state = prepare::rolling(car, 12.0);
   state.motor_torque = log.command.front().motor_torque;
   std::vector<double> speeds;
   for (std::size_t row = 0; row < log.time.size(); ++row) {
@@ -37,7 +37,7 @@ std::vector<double> speeds_of(const Log& log, const vehicle::Vehicle& car) {
 }
 
 TEST(Response, WithADeadTimeOfWholeMillisecondsIsThatOfTheBrakeLine) {
-  vehicle::Vehicle car = vehicle::default_car();
+  vehicle::Vehicle car = prepare::default_vehicle();
   const Log log = drive_test(car, gentle);
   for (const double dead_time : {0.0, 0.017, 0.04, 0.06}) {
     car.brake_dead_time = dead_time;
@@ -51,7 +51,7 @@ TEST(Response, WithADeadTimeOfWholeMillisecondsIsThatOfTheBrakeLine) {
 }
 
 TEST(Response, BetweenMillisecondsLiesBetweenItsNeighbours) {
-  vehicle::Vehicle car = vehicle::default_car();
+  vehicle::Vehicle car = prepare::default_vehicle();
   const Log log = drive_test(car, gentle);
   const std::size_t row = log.event + 20;  // 0.2 s into the braking
   const auto speed_with = [&](double dead_time) {
@@ -68,7 +68,7 @@ TEST(Response, BetweenMillisecondsLiesBetweenItsNeighbours) {
 }
 
 TEST(Response, FollowsTheLoggedSpeedWhereTheMotorIsNotKnown) {
-  const vehicle::Vehicle car = vehicle::default_car();
+  const vehicle::Vehicle car = prepare::default_vehicle();
   const Log log =
       drive_test(car, {.kind = TestKind::steer, .speed = 20.0, .noise = 0.0, .motor_known = false});
   const std::vector<double> speeds =
@@ -79,7 +79,7 @@ TEST(Response, FollowsTheLoggedSpeedWhereTheMotorIsNotKnown) {
 }
 
 TEST(HeldSpeed, IsAMeanOfTheNeighbours) {
-  Log log = drive_test(vehicle::default_car(),
+  Log log = drive_test(prepare::default_vehicle(),
                        {.kind = TestKind::steer, .noise = 0.0, .motor_known = false});
   for (std::size_t row = 0; row < log.time.size(); ++row) {
     log.measured.front().values[row] = 20.0 + 2.0 * log.time[row];

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/tune/fit_drive.h"
-#include "saca/onboard/vehicle/default_car.h"
 
 namespace saca::tune::fit_vehicle_test {
 namespace {
@@ -31,7 +31,7 @@ constexpr double true_grip = 0.8;
 
 // Somebody's own car: of the default's kind, and different in all that can be fitted.
 vehicle::Vehicle own_car() {
-  vehicle::Vehicle car = vehicle::default_car();
+  vehicle::Vehicle car = prepare::default_vehicle();
   car.tyre.stiffness = 21.0;
   car.tyre.shape = 1.5;
   car.yaw_inertia = 2400.0;
@@ -82,7 +82,7 @@ TEST(VehicleFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   for (int seed = 1; seed <= num_seeds; ++seed) {
     const auto number = static_cast<std::uint64_t>(seed);
     const VehicleFit fit =
-        fit_vehicle(vehicle::default_car(), 0.9, {braked(number), steered(number)});
+        fit_vehicle(prepare::default_vehicle(), 0.9, {braked(number), steered(number)});
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const FittedParameter& one = fit.parameters[k];
       if (one.determined) {
@@ -107,7 +107,7 @@ TEST(VehicleFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
 TEST(VehicleFit, WithoutNoiseFindsTheCarItself) {
   const std::array<double, 8> wanted = truth();
   const VehicleFit fit = fit_vehicle(
-      vehicle::default_car(), 0.9,
+      prepare::default_vehicle(), 0.9,
       {drive_test(own_car(), {.speed = 14.0, .grip = true_grip, .noise = 0.0}),
        drive_test(own_car(), {.kind = TestKind::steer, .grip = true_grip, .noise = 0.0})});
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -119,7 +119,7 @@ TEST(VehicleFit, WithoutNoiseFindsTheCarItself) {
 }
 
 TEST(VehicleFit, KeepsTheBaseWhereTheLogsSayNothing) {
-  const vehicle::Vehicle base = vehicle::default_car();
+  const vehicle::Vehicle base = prepare::default_vehicle();
   const VehicleFit fit = fit_vehicle(base, 0.9, {steered(1)});
   for (const std::size_t k : {shape, dead_time, brake_lag}) {
     EXPECT_FALSE(fit.parameters[k].determined);
@@ -148,8 +148,8 @@ TEST(VehicleFit, OfAStepToTheRightIsThatOfTheStepToTheLeft) {
       }
     }
   }
-  const VehicleFit one = fit_vehicle(vehicle::default_car(), 0.9, {steered(4)});
-  const VehicleFit other = fit_vehicle(vehicle::default_car(), 0.9, {right});
+  const VehicleFit one = fit_vehicle(prepare::default_vehicle(), 0.9, {steered(4)});
+  const VehicleFit other = fit_vehicle(prepare::default_vehicle(), 0.9, {right});
   for (std::size_t k = 0; k < one.parameters.size(); ++k) {
     EXPECT_EQ(one.parameters[k].determined, other.parameters[k].determined);
     EXPECT_NEAR(one.parameters[k].value, other.parameters[k].value, 1e-4 * one.parameters[k].value);
@@ -163,7 +163,7 @@ TEST(VehicleFit, ReportsOutliersAndIsNotMovedByThem) {
   for (const std::size_t row : {40U, 77U, 110U}) {
     yaw_rate.values[row] += from_degrees(20.0);
   }
-  const VehicleFit fit = fit_vehicle(vehicle::default_car(), true_grip, {log});
+  const VehicleFit fit = fit_vehicle(prepare::default_vehicle(), true_grip, {log});
   EXPECT_THAT(fit.warnings, Contains(AllOf(HasSubstr("yaw_rate_degps: 3 of"), HasSubstr("0.4 s"))));
   EXPECT_TRUE(holds(fit.parameters[stiffness], own_car().tyre.stiffness));
   EXPECT_TRUE(holds(fit.parameters[yaw_inertia], own_car().yaw_inertia));
@@ -174,7 +174,7 @@ TEST(VehicleFit, FindsASensorsOffsetAndReportsALargeOne) {
   for (double& value : log.measured[2].values) {
     value += from_degrees(2.0);
   }
-  const VehicleFit fit = fit_vehicle(vehicle::default_car(), true_grip, {log});
+  const VehicleFit fit = fit_vehicle(prepare::default_vehicle(), true_grip, {log});
   ASSERT_EQ(fit.signals[2].signal, Signal::yaw_rate);
   EXPECT_NEAR(fit.signals[2].offset, 2.0, 0.2);
   EXPECT_THAT(fit.warnings, Contains(HasSubstr("yaw_rate_degps: the sensor seems to be off")));
@@ -185,13 +185,13 @@ TEST(VehicleFit, FindsASensorsOffsetAndReportsALargeOne) {
 TEST(VehicleFit, ReportsWhatTheModelCannotFollow) {
   vehicle::Vehicle loaded = own_car();
   loaded.mass *= 1.25;
-  const VehicleFit fit = fit_vehicle(vehicle::default_car(), 0.9, {braked(1, loaded)});
+  const VehicleFit fit = fit_vehicle(prepare::default_vehicle(), 0.9, {braked(1, loaded)});
   EXPECT_THAT(fit.warnings, Contains(HasSubstr("systematic residual")));
-  EXPECT_TRUE(fit_vehicle(vehicle::default_car(), 0.9, {steered(1)}).warnings.empty());
+  EXPECT_TRUE(fit_vehicle(prepare::default_vehicle(), 0.9, {steered(1)}).warnings.empty());
 }
 
 TEST(VehicleFit, OfAnotherKindOfCarIsFiniteAndWarned) {
-  vehicle::Vehicle truck = vehicle::default_car();
+  vehicle::Vehicle truck = prepare::default_vehicle();
   truck.mass = 12'000.0;
   truck.yaw_inertia = 60'000.0;
   truck.cg_to_front_axle = 3.0;
@@ -203,7 +203,7 @@ TEST(VehicleFit, OfAnotherKindOfCarIsFiniteAndWarned) {
   truck.front_wheel_inertia = 20.0;
   truck.rear_wheel_inertia = 40.0;
   truck.brake_limit = 20'000.0;
-  const VehicleFit fit = fit_vehicle(vehicle::default_car(), 0.9, {steered(1, 0.02, truck)});
+  const VehicleFit fit = fit_vehicle(prepare::default_vehicle(), 0.9, {steered(1, 0.02, truck)});
   EXPECT_FALSE(fit.warnings.empty());
   for (const FittedParameter& one : fit.parameters) {
     EXPECT_TRUE(std::isfinite(one.value) && std::isfinite(one.low) && std::isfinite(one.high));

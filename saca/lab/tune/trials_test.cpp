@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::tune::trials_test {
 namespace {
 
 using manoeuvre::Car;
-using manoeuvre::default_car;
+using prepare::default_car;
 
 TEST(Trials, AreOnceAsKnownThenDrawnAndCrookedToEitherSide) {
   for (const auto& trials : {drift_trials(1), swerve_trials(1)}) {
@@ -81,8 +81,8 @@ TEST(Trials, NoDriftIsAcrossFromWalkingPace) {
 // What the shipped files promise, with other draws than those that found it; between its grips too.
 TEST(Trials, TheShippedDomainsKeepTheirPromise) {
   constexpr int draws = 30;
-  for (const char* name : manoeuvre::shipped_cars) {
-    const Car car = manoeuvre::shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const Car car = prepare::shipped_car(name);
     for (const double grip : {0.6, 0.9}) {
       const auto [slowest, fastest] = manoeuvre::drift_speeds(car.tuning.domain, grip);
       ASSERT_LT(slowest, fastest) << name << ' ' << grip;

@@ -6,13 +6,13 @@
 #include <set>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::verification::physics_figures_test {
 namespace {
 
 const std::vector<Figure>& figures() {
-  static const std::vector<Figure> all = physics_figures(manoeuvre::default_car());
+  static const std::vector<Figure> all = physics_figures(prepare::default_car());
   return all;
 }
 
@@ -32,7 +32,7 @@ TEST(PhysicsFigures, HaveDifferentNames) {
 }
 
 TEST(PhysicsFigures, RefuseWhatIsNoStop) {
-  const auto car = manoeuvre::default_car();
+  const auto car = prepare::default_car();
   EXPECT_THROW((void)stop_straight(car, Abs::ideal, 0.0, 0.9), ContractViolation);
   EXPECT_THROW((void)stop_straight(car, Abs::ideal, 14.0, 0.1), ContractViolation);
 }

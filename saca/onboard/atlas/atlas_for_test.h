@@ -7,7 +7,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/prepare/atlas_build.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::atlas {
 
@@ -35,7 +35,7 @@ inline AtlasGrid small_grid() {
 }
 
 inline const manoeuvre::Car& small_atlas_car() {
-  static const manoeuvre::Car car = manoeuvre::default_car();
+  static const manoeuvre::Car car = prepare::default_car();
   return car;
 }
 

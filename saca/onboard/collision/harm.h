@@ -1,10 +1,7 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <string_view>
 
-#include "saca/base/core/result.h"
 #include "saca/base/world/road.h"
 #include "saca/base/world/scene.h"
 #include "saca/onboard/collision/collision_impulse.h"
@@ -51,11 +48,6 @@ struct HarmModel {
   double depth = 0.0;                            ///< of `touch` [m], > 0
   std::array<double, num_beyond> speed_share{};  ///< stopped, by Beyond; barrier: 1, not used
 };
-
-/// @param source  name for messages, usually the path
-/// @return        Error::Code::malformed or out_of_range, naming source, line and key
-[[nodiscard]] Result<HarmModel> parse_harm(std::string_view text, std::string_view source);
-[[nodiscard]] Result<HarmModel> read_harm(const std::filesystem::path& path);
 
 /// What impacts do to one person, as probabilities in [0, 1].
 struct Injury {

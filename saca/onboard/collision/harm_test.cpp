@@ -1,26 +1,20 @@
 #include "saca/onboard/collision/harm.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <limits>
-#include <string>
 
 #include "saca/base/core/contract.h"
-#include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/harm_file.h"
 
 namespace saca::collision::harm_test {
 namespace {
 
-using testing::HasSubstr;
 using world::ActorKind;
 
-const std::filesystem::path data_file = "data/harm.toml";
-
 HarmModel shipped() {
-  return read_harm(data_file).value();
+  return prepare::read_harm("data/harm.toml").value();
 }
 
 // The published curve at 0, 10 and 25 m/s by hand: logits -4.457, -2.687 and -0.032.
@@ -112,41 +106,6 @@ TEST(UnprotectedHarm, RefusesOccupantsAndWhatIsNoSpeed) {
   EXPECT_THROW((void)occupant_harm(model, Face::front, nan), ContractViolation);
   EXPECT_FALSE(unprotected(ActorKind::obstacle));
   EXPECT_TRUE(unprotected(ActorKind::motorcycle));
-}
-
-// The file with one line changed.
-std::string changed(const std::string& from, const std::string& to) {
-  std::string text = read_file(data_file).value();
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-TEST(ParseHarm, SaysWhatIsWrongAndWhere) {
-  const auto problem = [](const std::string& text) {
-    const auto model = parse_harm(text, "harm.toml");
-    return model.has_value() ? std::string() : model.error().message;
-  };
-  EXPECT_EQ(problem(changed("severe = 1.0", "severe = 2.0")), "");
-  EXPECT_THAT(problem(changed("slope_per_mps = 0.177", "slope_per_mps = -0.177")),
-              HasSubstr("slope_per_mps"));
-  EXPECT_THAT(problem(changed("slope_per_mps = 0.177", "slope_per_kmh = 0.177")),
-              HasSubstr("slope_per_mps"));
-  EXPECT_THAT(problem(changed("killed_share = 0.16", "killed_share = 1.6")),
-              HasSubstr("killed_share"));
-  EXPECT_THAT(problem(changed("restitution = 0.1", "restitution = nan")), HasSubstr("restitution"));
-  EXPECT_THAT(problem(changed("bicycle = 1.0", "bicycle = -1.0")), HasSubstr("bicycle"));
-  EXPECT_THAT(problem(changed("van = 1.5", "van = 1.5\nlorry = 1.0")), HasSubstr("lorry"));
-  EXPECT_THAT(problem("weight = 3"), HasSubstr("harm.toml"));
-  EXPECT_FALSE(parse_harm("", "harm.toml").has_value());
-  EXPECT_FALSE(parse_harm("[", "harm.toml").has_value());
-}
-
-TEST(ReadHarm, NamesAFileThatIsNotThere) {
-  const auto model = read_harm("no_such_harm.toml");
-  ASSERT_FALSE(model.has_value());
-  EXPECT_EQ(model.error().code, Error::Code::unreadable);
-  EXPECT_THAT(model.error().message, HasSubstr("no_such_harm.toml"));
 }
 
 }  // namespace

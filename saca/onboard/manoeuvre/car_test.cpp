@@ -9,11 +9,10 @@
 
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/onboard/manoeuvre/ride.h"
-#include "saca/onboard/vehicle/default_car.h"
 #include "tests/support/scenes.h"
 
 namespace saca::manoeuvre::car_test {
@@ -22,31 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-TEST(Car, IsItsParametersAndTheTuningBesideThem) {
-  const auto car = read_car("data/vehicles/compact_rwd_ev.toml");
-  ASSERT_TRUE(car.has_value()) << car.error().message;
-  EXPECT_EQ(car.value().mass, vehicle::default_car().mass);
-  const auto tuning = read_tuning("data/vehicles/compact_rwd_ev.tuning.toml");
-  ASSERT_TRUE(tuning.has_value());
-  EXPECT_EQ(car.value().tuning.drift.turning, tuning.value().drift.turning);
-}
-
-TEST(Car, WithoutTuningSaysWhatMakesIt) {
-  const fs::path alone = fs::path(testing::TempDir()) / "saca_car_alone.toml";
-  ASSERT_EQ(write_file(alone, read_file("data/vehicles/compact_rwd_ev.toml").value()),
-            std::nullopt);
-  const auto car = read_car(alone);
-  fs::remove(alone);
-  ASSERT_FALSE(car.has_value());
-  EXPECT_THAT(car.error().message, HasSubstr("saca_car_alone.tuning.toml"));
-  EXPECT_THAT(car.error().message, HasSubstr("saca tune --car"));
-}
-
 // Every policy that changes lanes, on every car, at the corners of its domain, from a start that is
 // not straight: it ends where the road says, in the road's direction.
 TEST(Car, ChangesLanesWhicheverItIs) {
-  for (const char* name : shipped_cars) {
-    const Car car = shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const Car car = prepare::shipped_car(name);
     for (const PolicyId policy :
          {PolicyId::aes_left, PolicyId::aes_right, PolicyId::es_b_left, PolicyId::es_b_right}) {
       for (const double speed : {5.0, 12.0, 25.0}) {
@@ -94,8 +73,8 @@ TEST(Car, ChangesLanesWhateverItDoesNotKnow) {
       cases.back()[i] = (mix >> i & 1U) != 0 ? 2.0 : -2.0;
     }
   }
-  for (const char* name : shipped_cars) {
-    const Car car = shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const Car car = prepare::shipped_car(name);
     for (const PolicyId policy : {PolicyId::aes_left, PolicyId::es_b_right}) {
       const world::Scene scene = test::ego_alone(20.0, 0.5);
       const Plan plan = default_plan(policy, 20.0);

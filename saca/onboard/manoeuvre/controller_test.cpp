@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "tests/support/count_allocations.h"
@@ -20,7 +20,7 @@ constexpr double dt = 1e-3;
 
 class Controller : public testing::Test {
  protected:
-  const Car car_ = default_car();
+  const Car car_ = prepare::default_car();
 };
 
 TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "saca/base/core/units.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
@@ -40,8 +40,8 @@ TEST(Demand, IsMovedOntoTheDisc) {
 // Half of what the grip gives is well within what tyres and controllers do: once the actuators have
 // followed, the car accelerates as it is asked to, whichever car on whichever grip.
 TEST(Demand, IsMetWhereTheTyresCan) {
-  for (const char* name : shipped_cars) {
-    const Car car = shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const Car car = prepare::shipped_car(name);
     for (const double grip : {0.4, 0.9}) {
       const double g = grip * vehicle::gravity;
       const std::string told = std::string(name) + " on " + std::to_string(grip);
@@ -53,7 +53,7 @@ TEST(Demand, IsMetWhereTheTyresCan) {
 }
 
 TEST(Demand, IsMirrored) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   const auto left = after(car, {-0.4, 0.6}, 18.0, 0.8, 1.0);
   const auto right = after(car, {-0.4, -0.6}, 18.0, 0.8, 1.0);
   EXPECT_NEAR(left.X_WB.p.y, -right.X_WB.p.y, 1e-9);
@@ -64,8 +64,8 @@ TEST(Demand, IsMirrored) {
 // All round the disc, from slow to fast: whatever is asked for, the car does not spin. At 5 m/s the
 // tightest turn alone takes some 20 degrees of sideslip.
 TEST(Demand, DoesNotSpinTheCar) {
-  for (const char* name : shipped_cars) {
-    const Car car = shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const Car car = prepare::shipped_car(name);
     for (const double speed : {5.0, 15.0, 30.0}) {
       for (int k = 0; k < 12; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / 12.0;
@@ -81,13 +81,13 @@ TEST(Demand, DoesNotSpinTheCar) {
 }
 
 TEST(Demand, LeavesACarThatStandsWhereItIs) {
-  const auto state = after(default_car(), {-1.0, 0.5}, 0.0, 0.9, 1.0);
+  const auto state = after(prepare::default_car(), {-1.0, 0.5}, 0.0, 0.9, 1.0);
   EXPECT_EQ(norm(state.v_B), 0.0);
   EXPECT_EQ(state.X_WB.p, (Vec2{0.0, 0.0}));
 }
 
 TEST(Demand, AllocatesNothing) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   const std::size_t before = num_allocations;
   (void)after(car, {-0.7, 0.7}, 20.0, 0.9, 0.5);
   EXPECT_EQ(num_allocations - before, 0U);

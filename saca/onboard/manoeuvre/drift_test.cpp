@@ -10,8 +10,8 @@
 
 #include "saca/base/core/angle.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/controller.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/onboard/manoeuvre/ride.h"
 #include "saca/onboard/vehicle/prototype.h"
@@ -33,7 +33,7 @@ struct End {
 
 End drifted(const Plan& plan, const world::Scene& scene,
             const ParameterPerturbation& perturbation = {}) {
-  Ride ride(default_car(), plan, scene, scene.grip, perturbation);
+  Ride ride(prepare::default_car(), plan, scene, scene.grip, perturbation);
   End end;
   while (!ride.ended() && end.time < 30.0) {
     ride.step();
@@ -75,7 +75,7 @@ TEST(TDrift, EndsAcrossTheLaneWhateverItDoesNotKnow) {
 }
 
 TEST(TDrift, EndsAcrossTheLaneAtTheCornersOfItsDomain) {
-  const DriftDomain domain = default_car().tuning.domain;
+  const DriftDomain domain = prepare::default_car().tuning.domain;
   int num_possible = 0;
   for (std::size_t i = 0; i < DriftDomain::grips.size(); ++i) {
     if (domain.slowest[i] > domain.fastest[i]) {
@@ -98,7 +98,7 @@ TEST(TDrift, EndsAcrossTheLaneAtTheCornersOfItsDomain) {
 }
 
 TEST(TDrift, TurnsInByTheInnerBrakesAndTheFrontWheels) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   const DriftLaw law{.turning = 1.5,
                      .most_turning = 2.0,
                      .gain = 8.0,
@@ -131,7 +131,7 @@ TEST(TDrift, TurnsInByTheInnerBrakesAndTheFrontWheels) {
 }
 
 TEST(TDrift, NeverDrivesASlowCarOff) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   DriftLaw law = car.tuning.drift;
   for (const double share : {-1.0, 1.0}) {
     law.motor_share = share;
@@ -177,7 +177,7 @@ TEST(TDrift, IsAcrossTheLaneInAnyWorld) {
 }
 
 TEST(TDrift, LocksAllWheelsWhereNothingIsToBeTurned) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   DriftState memory;
   const DriftLaw law{
       .turning = 1.0, .most_turning = 2.0, .gain = 5.0, .slide_share = 1.0, .lock_speed = 0.5};

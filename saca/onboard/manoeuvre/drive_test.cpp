@@ -11,7 +11,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/core/units.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "tests/support/scenes.h"
 
 namespace saca::manoeuvre::drive_test {
@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 const Car& car() {
-  static const Car the_car = default_car();
+  static const Car the_car = prepare::default_car();
   return the_car;
 }
 

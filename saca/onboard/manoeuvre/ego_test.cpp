@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::manoeuvre::ego_test {
 namespace {
@@ -30,7 +30,7 @@ class Ego : public testing::Test {
     return state;
   }
 
-  const Car car_ = default_car();
+  const Car car_ = prepare::default_car();
 };
 
 TEST_F(Ego, RollsOnStraight) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "tests/support/scenes.h"
 
@@ -13,7 +13,7 @@ constexpr double dt = vehicle::usual_step;  // [s]
 constexpr double grip = 0.9;
 
 const Car& car() {
-  static const Car the_car = default_car();
+  static const Car the_car = prepare::default_car();
   return the_car;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::manoeuvre::parameter_perturbation_test {
 namespace {
@@ -32,7 +32,7 @@ TEST(ParameterPerturbation, HasTheSpreadsThatItNames) {
 }
 
 TEST(ParameterPerturbation, NeverMakesACarTooStiffForItsSteps) {
-  Car light = default_car();
+  Car light = prepare::default_car();
   light.front_wheel_inertia *= 1.02 * vehicle::usual_step / vehicle::longest_step(light);
   EXPECT_GE(vehicle::longest_step(light), vehicle::usual_step);
   EXPECT_GE(vehicle::longest_step(real_car(light, {.mass = 1.09, .stiffness = 1.3})),
@@ -47,7 +47,7 @@ TEST(ParameterPerturbation, SameSeedSameDraws) {
 }
 
 TEST(ParameterPerturbation, ChangesTheCarAndNothingUnknownLeavesIt) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   const vehicle::Vehicle real = real_car(car, {.mass = 1.1, .lag = -0.2});
   EXPECT_DOUBLE_EQ(real.mass, 1.1 * car.mass);
   EXPECT_GT(real.brake_lag, 0.0);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
@@ -16,7 +16,7 @@ using test::ego_alone;
 constexpr Plan brake{PolicyId::aeb, std::nullopt};
 
 double stop(double grip, const ParameterPerturbation& perturbation) {
-  Ride ride(default_car(), brake, ego_alone(15.0, 0.8), grip, perturbation);
+  Ride ride(prepare::default_car(), brake, ego_alone(15.0, 0.8), grip, perturbation);
   while (!ride.ended()) {
     ride.step();
   }
@@ -24,7 +24,7 @@ double stop(double grip, const ParameterPerturbation& perturbation) {
 }
 
 TEST(Ride, GoesTheWayOfDrive) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   const world::Scene scene = ego_alone(16.0, 0.8);
   const Plan plan = default_plan(PolicyId::es_b_left, 16.0);
   const EgoMotion motion = drive(car, plan, scene, 0.7, 1.0);
@@ -46,16 +46,17 @@ TEST(Ride, TheRoadDecidesNotWhatIsKnownOfIt) {
 
 TEST(Ride, NoDrawMakesTheRoadBetterThanTheModelKnows) {
   for (const double grip : {1.12, 1.17, 1.2}) {
-    Ride ride(default_car(), brake, ego_alone(15.0, 0.9), grip, {.grip = 1.18});
+    Ride ride(prepare::default_car(), brake, ego_alone(15.0, 0.9), grip, {.grip = 1.18});
     ride.step();
     EXPECT_GT(ride.state().X_WB.p.x, 0.0);
   }
 }
 
 TEST(Ride, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW(Ride(default_car(), brake, ego_alone(15.0, 0.8), 1.3), ContractViolation);
-  EXPECT_THROW(Ride(default_car(), {PolicyId::es_b_left, std::nullopt}, ego_alone(15.0, 0.8), 0.8),
-               ContractViolation);
+  EXPECT_THROW(Ride(prepare::default_car(), brake, ego_alone(15.0, 0.8), 1.3), ContractViolation);
+  EXPECT_THROW(
+      Ride(prepare::default_car(), {PolicyId::es_b_left, std::nullopt}, ego_alone(15.0, 0.8), 0.8),
+      ContractViolation);
 }
 
 }  // namespace

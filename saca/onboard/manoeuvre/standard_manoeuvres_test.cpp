@@ -7,10 +7,9 @@
 
 #include "saca/base/core/units.h"
 #include "saca/base/world/footprint.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/controller.h"
-#include "saca/onboard/manoeuvre/default_car.h"
 #include "saca/onboard/manoeuvre/ego.h"
-#include "saca/onboard/vehicle/default_car.h"
 #include "tests/support/scenes.h"
 
 namespace saca::manoeuvre::standard_manoeuvres_test {
@@ -86,7 +85,7 @@ struct Passage {
 Passage drive_through(const Vehicle& car, const Driver& driver, double speed, double grip) {
   const auto lanes = obstacle_avoidance_track(car.body_width);
   const world::Footprint body = footprint(car);
-  VehicleState state = vehicle::rolling(car, speed);
+  VehicleState state = prepare::rolling(car, speed);
   state.X_WB.p.x = -car.front_end;
   Passage passage;
   const double rear_end = car.body_length - car.front_end;
@@ -149,7 +148,7 @@ double highest_entry_speed(const Vehicle& car, double grip) {
 // (reported by automotivetip.com and automototale.com); 70 km/h is what the Swedish test of this
 // kind asks (bilmagasinet.dk). This driver, whose path is the same at all speeds, is not as good.
 TEST(SevereLaneChange, IsDrivenUntilTheGripEnds) {
-  const Vehicle car = vehicle::default_car();
+  const Vehicle car = prepare::default_vehicle();
   const double highest = highest_entry_speed(car, 0.9);
   EXPECT_GT(to_kmh(highest), 58.0);
   EXPECT_LT(to_kmh(highest), 77.0);
@@ -193,7 +192,7 @@ Stop emergency_stop(const Car& car, double speed, const vehicle::PerWheel& grip,
 // sideways forces, so the car goes straight on, but askew and steered. The mean grip is what both
 // sides could give at most: mean grip x g and a little air drag.
 TEST(SplitGrip, EmergencyBrakingKeepsTheLane) {
-  const Car car = default_car();
+  const Car car = prepare::default_car();
   constexpr double mean = 0.55 * vehicle::gravity;
   for (const double speed : {10.0, 15.0, 20.0, 25.0}) {
     for (const double estimate : {0.55, 0.9}) {

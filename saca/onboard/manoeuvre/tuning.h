@@ -96,11 +96,4 @@ inline constexpr std::array<Number<DriftLaw>, 11> drift_numbers{
      {"slide_share", &DriftLaw::slide_share, 0.6, 1.1},
      {"lock_speed_mps", &DriftLaw::lock_speed, 0.2, 1.5}}};
 
-/// Reads what `tuning_text` writes.
-/// @return  Error::Code::unreadable; malformed, naming file, line and key
-[[nodiscard]] Result<Tuning> read_tuning(const std::filesystem::path& path);
-
-/// The file's text, all digits of every number. `comment` goes on top: how the numbers were found.
-[[nodiscard]] std::string tuning_text(const Tuning& tuning, std::string_view comment);
-
 }  // namespace saca::manoeuvre

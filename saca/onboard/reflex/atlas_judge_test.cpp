@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
 #include "saca/thinking/rollout/roll_out.h"
 #include "tests/support/scenes.h"
@@ -17,7 +18,7 @@ using manoeuvre::PolicyId;
 using test::car;
 
 const collision::HarmModel& harm() {
-  static const collision::HarmModel model = collision::read_harm("data/harm.toml").value();
+  static const collision::HarmModel model = prepare::read_harm("data/harm.toml").value();
   return model;
 }
 

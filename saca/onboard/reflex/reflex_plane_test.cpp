@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
 #include "saca/onboard/reflex/verdict_for_test.h"
 #include "saca/thinking/arbitration/event.h"
@@ -290,7 +291,7 @@ const manoeuvre::Car& small_car() {
   return atlas::small_atlas_car();
 }
 ReflexTools with_atlas() {
-  static const auto harm = collision::read_harm("data/harm.toml").value();
+  static const auto harm = prepare::read_harm("data/harm.toml").value();
   return {.car = &small_car(), .atlas = AtlasJudge(small_car(), atlas::small_atlas(), harm)};
 }
 Decision decision_with_atlas(const Scene& scene, PolicyId policy) {

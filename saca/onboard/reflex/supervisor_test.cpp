@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/reflex/verdict_for_test.h"
 #include "tests/support/scenes.h"
 
@@ -37,7 +37,7 @@ class Watched {
   void carries_out(const manoeuvre::Plan& plan) { under_way_.plan = plan; }
 
  private:
-  manoeuvre::Car car_ = manoeuvre::default_car();
+  manoeuvre::Car car_ = prepare::default_car();
   world::Scene scene_;
   UnderWay under_way_;
   Supervisor supervisor_;

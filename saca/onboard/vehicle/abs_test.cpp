@@ -6,7 +6,7 @@
 #include <array>
 #include <functional>
 
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/vehicle/prototype.h"
 
 namespace saca::vehicle::abs_test {
@@ -24,7 +24,7 @@ struct Stop {
 using Brakes = std::function<PerWheel(const VehicleState&)>;
 
 Stop stop(const Vehicle& car, double speed, double grip, const Brakes& brakes) {
-  VehicleState state = rolling(car, speed);
+  VehicleState state = prepare::rolling(car, speed);
   Stop result;
   for (int i = 1; i < 12'000 && !at_rest(state); ++i) {
     state = step(car, state, {.brake_torque = brakes(state)}, grip, dt);
@@ -53,7 +53,7 @@ Stop deployed_stop(const Vehicle& car, double speed, double grip, double estimat
 }
 
 TEST(IdealBrakes, StopWithinFivePercentOfTheReference) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   for (const auto& [speed, grip, distance, time] : prototype_stops) {
     const Stop result = ideal_stop(car, speed, grip);
     EXPECT_NEAR(result.distance, distance, 0.05 * distance) << speed << " " << grip;
@@ -64,7 +64,7 @@ TEST(IdealBrakes, StopWithinFivePercentOfTheReference) {
 // Nothing stops sooner than friction alone after the dead time: v^2 / (2 mu g), less what air
 // takes.
 TEST(IdealBrakes, CannotBeatFriction) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   for (const double speed : {8.0, 14.0, 25.0}) {
     const double air = 0.5 * 1.225 * car.drag_area * speed * speed / car.mass;
     const double least =
@@ -74,14 +74,14 @@ TEST(IdealBrakes, CannotBeatFriction) {
 }
 
 TEST(IdealBrakes, PeakDecelerationIsThatOfTheReference) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   for (const auto& [grip, deceleration] : prototype_peaks) {
     EXPECT_NEAR(ideal_stop(car, 14.0, grip).peak, deceleration, 0.05 * deceleration) << grip;
   }
 }
 
 TEST(DeployedBrakes, StopWithinTheBandOfTheReference) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   for (const auto& [speed, grip, distance, time] : prototype_stops) {
     const Stop result = deployed_stop(car, speed, grip, grip);
     EXPECT_GT(result.distance, 0.97 * distance) << speed << " " << grip;
@@ -93,7 +93,7 @@ TEST(DeployedBrakes, StopWithinTheBandOfTheReference) {
 
 // The estimate is only where it starts from: the wheels tell it the rest.
 TEST(DeployedBrakes, ForgiveAWrongGrip) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   for (const double grip : {0.35, 0.6, 0.9}) {
     const double right = deployed_stop(car, 15.0, grip, grip).distance;
     for (const double factor : {0.8, 0.94, 1.06, 1.2}) {
@@ -106,7 +106,7 @@ TEST(DeployedBrakes, ForgiveAWrongGrip) {
 }
 
 TEST(DeployedBrakes, ForgiveAWrongSpeed) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   const double right = deployed_stop(car, 14.0, 0.9, 0.9).distance;
   for (const double error : {-0.3, 0.3}) {  // twice the sensor's standard deviation
     AbsState abs = begin_abs(14.0 + error);
@@ -118,9 +118,9 @@ TEST(DeployedBrakes, ForgiveAWrongSpeed) {
 }
 
 TEST(DeployedBrakes, GiveThePartThatIsWanted) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   AbsState abs = begin_abs(20.0);
-  VehicleState state = rolling(car, 20.0);
+  VehicleState state = prepare::rolling(car, 20.0);
   for (int i = 0; i < 1000; ++i) {
     state =
         step(car, state, {.brake_torque = deployed_brakes(car, state, 3.0, 0.9, dt, abs)}, 0.9, dt);

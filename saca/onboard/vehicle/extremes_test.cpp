@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/vehicle/vehicle.h"
 
 namespace saca::vehicle::extremes_test {
@@ -19,7 +19,7 @@ constexpr double dt = 1e-3;
 
 // The default car with another drive.
 Vehicle driven(double front_share) {
-  Vehicle car = default_car();
+  Vehicle car = prepare::default_vehicle();
   car.motor_front_share = front_share;
   return car;
 }
@@ -207,7 +207,7 @@ class Turns {
 // front axle takes the rest, and the road carries the weight, no more, also at the point of
 // turning over.
 TEST(Extremes, ALiftedWheelDoesNotAddToTheWeight) {
-  Vehicle car = default_car();
+  Vehicle car = prepare::default_vehicle();
   car.cg_height = 0.9;
   car.front_roll_stiffness_share = 0.3;
   const double weight = car.mass * gravity;
@@ -242,7 +242,7 @@ TEST(Extremes, CrawlsWithoutChatter) {
                                      PerWheel{0.1, 0.9, 0.1, 0.9}}) {
           const Command command{.steering = steering,
                                 .brake_torque = {brakes, brakes, brakes, brakes}};
-          VehicleState state = rolling(car, speed);
+          VehicleState state = prepare::rolling(car, speed);
           Turns speed_turns(1e-5);
           Turns deceleration_turns(0.02);
           std::array<Turns, num_wheels> wheel_turns{Turns(1e-3), Turns(1e-3), Turns(1e-3),
@@ -280,9 +280,9 @@ double sliding_friction(const Vehicle& car, double grip, double speed) {
 // The friction of one wheel against the mass of the car and the spin of the other three: m dv / F
 // over the speeds down to where the brakes hold the car, and the delays until the wheel is locked.
 TEST(Extremes, StopsOnOneLockedWheel) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   const double speed = 3.0;
-  VehicleState state = rolling(car, speed);
+  VehicleState state = prepare::rolling(car, speed);
   const Command command{.brake_torque = {3000.0, 0.0, 0.0, 0.0}};
   double slowest = speed;
   int num_steps = 0;
@@ -332,7 +332,7 @@ TEST(Extremes, StandsAgainstItsMotorUntilTheBrakesAreTheWeaker) {
 // Locked wheels on ice: v dv / a over the speeds, a by the magic formula with the library's sine;
 // slip is 1 down to the floor of slip's speed, v / floor below.
 TEST(Extremes, SlidesOnIceAsFarAsFrictionLetsIt) {
-  const Vehicle car = default_car();
+  const Vehicle car = prepare::default_vehicle();
   for (const double grip : {0.05, 0.1, 0.2}) {
     const double speed = 6.0;
     double expected = 0.0;
@@ -342,7 +342,7 @@ TEST(Extremes, SlidesOnIceAsFarAsFrictionLetsIt) {
       const double drag = 0.5 * 1.225 * car.drag_area * v * v / car.mass;
       expected += v / (gravity * sliding_friction(car, grip, v) + drag) * speed / num_parts;
     }
-    VehicleState state = rolling(car, speed);
+    VehicleState state = prepare::rolling(car, speed);
     state.wheel_speed = {};
     state.brake_torque.fill(1000.0);
     state.brake_line.torque.fill(state.brake_torque);
@@ -358,7 +358,7 @@ TEST(Extremes, SlidesOnIceAsFarAsFrictionLetsIt) {
 
 VehicleState after(const Vehicle& car, double speed, const Command& command, double seconds,
                    double step_size) {
-  VehicleState state = rolling(car, speed);
+  VehicleState state = prepare::rolling(car, speed);
   const auto num_steps = std::lround(seconds / step_size);
   for (int i = 0; i < num_steps; ++i) {
     state = step(car, state, command, 0.9, step_size);
@@ -406,7 +406,7 @@ TEST(Integrator, IsOfFirstOrderAcrossEvents) {
   for (const Drive& drive : {Drive{"wheels lock", 20.0, locking, 0.5, 3e-6},
                              Drive{"steering's rate", 20.0, {.steering = 0.2}, 0.5, 1e-8},
                              Drive{"comes to rest", 3.0, locking, 1.0, 4e-5}}) {
-    const Errors error(default_car(), drive.speed, drive.command, drive.seconds);
+    const Errors error(prepare::default_vehicle(), drive.speed, drive.command, drive.seconds);
     for (const double part : {1.0, 0.5, 0.25, 1.0 / 16.0}) {
       EXPECT_LT(error(part * 1e-3), part * drive.largest) << drive.name << ' ' << part;
     }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "saca/base/core/file.h"
-#include "saca/onboard/vehicle/parameters.h"
+#include "saca/lab/prepare/vehicle_file.h"
 
 namespace saca::vehicle::outside_test {
 namespace {
@@ -61,7 +61,7 @@ constexpr double dt = 1e-3;
 // The car of the outside models. Those with one track have also one wheel of the same inertia for
 // each axle, and their load follows the acceleration at once.
 Vehicle car_for(const std::string& model) {
-  Vehicle car = read_vehicle(testdata / "outside_bmw_320i.toml").value();
+  Vehicle car = prepare::read_vehicle(testdata / "outside_bmw_320i.toml").value();
   if (!model.starts_with("mb")) {
     car.front_wheel_inertia *= 0.5;
     car.rear_wheel_inertia *= 0.5;

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/vehicle/vehicle.h"
 
 namespace saca::vehicle::standard_manoeuvres_test {
@@ -64,7 +64,7 @@ double air_drag(const Vehicle& car, double speed) {
 
 // Rolling ahead, the motor against air drag.
 VehicleState cruising(const Vehicle& car, double speed) {
-  VehicleState state = rolling(car, speed);
+  VehicleState state = prepare::rolling(car, speed);
   state.motor_torque = air_drag(car, speed) * car.wheel_radius;
   return state;
 }
@@ -471,7 +471,7 @@ TEST_P(Manoeuvre, AnswersASineAsTheLinearCar) {
 TEST_P(Manoeuvre, TurnsOnSplitGripByHalfTheTrackTimesTheDifference) {
   const PerWheel grip{0.2, 0.9, 0.2, 0.9};
   const double speed = 20.0;
-  VehicleState state = rolling(car_, speed);
+  VehicleState state = prepare::rolling(car_, speed);
   state.wheel_speed = {};
   state.brake_torque.fill(3000.0);
   state.brake_line.torque.fill(state.brake_torque);
@@ -501,7 +501,7 @@ TEST_P(Manoeuvre, TurnsOnSplitGripByHalfTheTrackTimesTheDifference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cars, Manoeuvre,
-                         testing::Values(NamedCar{"Default", default_car()},
+                         testing::Values(NamedCar{"Default", prepare::default_vehicle()},
                                          NamedCar{"FrontHeavy", front_heavy()}),
                          [](const auto& named) { return std::string(named.param.name); });
 

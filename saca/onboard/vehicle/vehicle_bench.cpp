@@ -2,15 +2,15 @@
 
 #include <benchmark/benchmark.h>
 
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::vehicle {
 namespace {
 
 // Items per second are steps per second of one car; steps of 1 ms.
 void vehicle_step(benchmark::State& bench) {
-  const Vehicle car = default_car();
-  const VehicleState start = rolling(car, 20.0);
+  const Vehicle car = prepare::default_vehicle();
+  const VehicleState start = prepare::rolling(car, 20.0);
   Command command;
   command.steering = 0.03;
   command.brake_torque = {300.0, 300.0, 150.0, 150.0};

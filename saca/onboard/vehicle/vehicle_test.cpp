@@ -10,7 +10,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/core/units.h"
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::vehicle::vehicle_test {
 namespace {
@@ -34,7 +34,7 @@ class Dynamics : public testing::Test {
                            (car_.wheel_radius * car_.wheel_radius);
   }
 
-  const Vehicle car_ = default_car();
+  const Vehicle car_ = prepare::default_vehicle();
 };
 
 Command braking(double torque) {
@@ -68,7 +68,7 @@ TEST_F(Dynamics, LoadsAddUpToTheWeightAndMoveByHand) {
 }
 
 TEST_F(Dynamics, CoastingSlowsByAirDrag) {
-  const VehicleState end = after(rolling(car_, 20.0), 1.0, {});
+  const VehicleState end = after(prepare::rolling(car_, 20.0), 1.0, {});
   const double deceleration = 0.5 * 1.225 * car_.drag_area * 20.0 * 20.0 / effective_mass();
   EXPECT_NEAR(20.0 - end.v_B.x, deceleration, 0.02 * deceleration);  // drag falls 1 % on the way
   EXPECT_NEAR(end.X_WB.p.y, 0.0, 1e-12);
@@ -77,13 +77,13 @@ TEST_F(Dynamics, CoastingSlowsByAirDrag) {
 TEST_F(Dynamics, TheMotorAcceleratesCarAndWheels) {
   Command command;
   command.motor_torque = 800.0;
-  const VehicleState end = after(rolling(car_, 5.0), 0.5, command);
+  const VehicleState end = after(prepare::rolling(car_, 5.0), 0.5, command);
   // Full torque after its 20 ms lag: 0.48 s of it.
   EXPECT_NEAR(end.v_B.x - 5.0, 800.0 / car_.wheel_radius / effective_mass() * 0.48, 0.01);
 }
 
 TEST_F(Dynamics, BrakesWaitForTheirDeadTimeThenBuildUp) {
-  VehicleState state = rolling(car_, 20.0);
+  VehicleState state = prepare::rolling(car_, 20.0);
   const Command command = braking(100.0);
   state = after(state, 0.040, command);
   EXPECT_EQ(state.brake_torque[front_left], 0.0);
@@ -93,7 +93,8 @@ TEST_F(Dynamics, BrakesWaitForTheirDeadTimeThenBuildUp) {
 
 TEST_F(Dynamics, TheSameDeadTimeHoldsForAnyStep) {
   for (const double step_size : {0.25e-3, 0.5e-3, 1e-3}) {
-    const VehicleState state = after(rolling(car_, 20.0), 0.1, braking(100.0), 0.9, step_size);
+    const VehicleState state =
+        after(prepare::rolling(car_, 20.0), 0.1, braking(100.0), 0.9, step_size);
     EXPECT_NEAR(state.brake_torque[0], 100.0 * (1.0 - std::exp(-1.0)), 1e-6) << step_size;
   }
 }
@@ -101,7 +102,7 @@ TEST_F(Dynamics, TheSameDeadTimeHoldsForAnyStep) {
 TEST_F(Dynamics, SteeringIsLimitedInRateAndAngle) {
   Command command;
   command.steering = 1.0;
-  VehicleState state = after(rolling(car_, 1.0), 0.2, command);
+  VehicleState state = after(prepare::rolling(car_, 1.0), 0.2, command);
   EXPECT_NEAR(to_degrees(state.steering), 60.0 * 0.2, 0.01);
   state = after(state, 1.5, command);
   EXPECT_NEAR(to_degrees(state.steering), 35.0, 1e-3);
@@ -113,7 +114,7 @@ TEST_F(Dynamics, TurnsNeutrallyWhenSlow) {
   Command command;
   command.steering = 0.03;
   command.motor_torque = 60.0;  // about what keeps the speed
-  const VehicleState state = after(rolling(car_, 8.0), 4.0, command);
+  const VehicleState state = after(prepare::rolling(car_, 8.0), 4.0, command);
   const double wheelbase = car_.cg_to_front_axle + car_.cg_to_rear_axle;
   EXPECT_NEAR(state.yaw_rate, state.v_B.x * std::tan(0.03) / wheelbase, 0.02 * state.yaw_rate);
   EXPECT_NEAR(state.a_B.y, state.v_B.x * state.yaw_rate, 1e-3);
@@ -122,7 +123,7 @@ TEST_F(Dynamics, TurnsNeutrallyWhenSlow) {
 TEST_F(Dynamics, LockedWheelsSlideToRest) {
   // Slip 1: the share of the peak is that of the curve's tail.
   const double share = force_share(car_.tyre, 0.9, 1.0);
-  VehicleState state = after(rolling(car_, 20.0), 0.8, braking(3000.0));
+  VehicleState state = after(prepare::rolling(car_, 20.0), 0.8, braking(3000.0));
   for (const double speed : state.wheel_speed) {
     EXPECT_EQ(speed, 0.0);
   }
@@ -154,7 +155,7 @@ TEST_F(Dynamics, BrakesHoldAgainstAWeakerMotorAndLetGo) {
 }
 
 TEST_F(Dynamics, StopsWithoutChatter) {
-  VehicleState state = rolling(car_, 3.0);
+  VehicleState state = prepare::rolling(car_, 3.0);
   double slowest = 3.0;
   for (int i = 0; i < 3000; ++i) {
     state = step(car_, state, braking(800.0), 0.9, dt);
@@ -171,7 +172,7 @@ TEST_F(Dynamics, EnergyIsNeverCreatedWithoutTheMotor) {
   std::uniform_real_distribution<double> angle(-0.5, 0.5);
   std::uniform_real_distribution<double> speed(0.5, 25.0);
   for (int run = 0; run < 12; ++run) {
-    VehicleState state = rolling(car_, speed(rng));
+    VehicleState state = prepare::rolling(car_, speed(rng));
     state.yaw_rate = 0.5 * angle(rng);
     Command command;
     for (int i = 0; i < 600; ++i) {
@@ -187,7 +188,7 @@ TEST_F(Dynamics, EnergyIsNeverCreatedWithoutTheMotor) {
 }
 
 TEST_F(Dynamics, NoWheelEverLeavesItsFrictionCircle) {
-  VehicleState state = rolling(car_, 22.0);
+  VehicleState state = prepare::rolling(car_, 22.0);
   for (int i = 0; i < 1500; ++i) {
     state = step(car_, state, lively(3 * i), 0.5, dt);
     for (const WheelContact& wheel : contacts(car_, state, 0.5)) {
@@ -198,7 +199,7 @@ TEST_F(Dynamics, NoWheelEverLeavesItsFrictionCircle) {
 }
 
 TEST_F(Dynamics, LeftIsTheMirrorOfRight) {
-  VehicleState left = rolling(car_, 15.0);
+  VehicleState left = prepare::rolling(car_, 15.0);
   VehicleState right = left;
   for (int i = 0; i < 1200; ++i) {
     const Command command = lively(i);
@@ -218,7 +219,7 @@ TEST_F(Dynamics, LeftIsTheMirrorOfRight) {
 
 TEST_F(Dynamics, TheWorldMayBeTurned) {
   const Pose X_VW{{30.0, -7.0}, std::numbers::pi / 2.0};
-  VehicleState state = rolling(car_, 15.0);
+  VehicleState state = prepare::rolling(car_, 15.0);
   VehicleState turned = state;
   turned.X_WB = X_VW * state.X_WB;
   for (int i = 0; i < 1200; ++i) {
@@ -232,7 +233,7 @@ TEST_F(Dynamics, TheWorldMayBeTurned) {
 }
 
 TEST_F(Dynamics, SameInputSameBytes) {
-  VehicleState a = rolling(car_, 15.0);
+  VehicleState a = prepare::rolling(car_, 15.0);
   VehicleState b = a;
   for (int i = 0; i < 900; ++i) {
     a = step(car_, a, lively(i), 0.8, dt);
@@ -253,7 +254,7 @@ TEST_F(Dynamics, ConvergesWithFourthOrder) {
   command.steering = 0.045;
   command.motor_torque = 900.0;
   const auto end_y = [&](double step_size) {
-    return after(rolling(car_, 15.0), 0.8, command, 0.9, step_size).X_WB.p.y;
+    return after(prepare::rolling(car_, 15.0), 0.8, command, 0.9, step_size).X_WB.p.y;
   };
   const double exact = end_y(0.0625e-3);
   const double coarse = std::abs(end_y(1e-3) - exact);
@@ -274,7 +275,7 @@ TEST_F(Dynamics, TheLongestStepFollowsFromAWheelThatRollsSlowly) {
 // Any speed, any steering: no wheel swings about the speed at which it rolls.
 TEST_F(Dynamics, TheLongestStepIsStable) {
   for (const double speed : {0.5, 2.0, 4.0, 10.0}) {
-    VehicleState state = rolling(car_, speed);
+    VehicleState state = prepare::rolling(car_, speed);
     state.wheel_speed[front_left] += 1.0;
     Command command;
     command.steering = 0.5;
@@ -295,7 +296,7 @@ TEST_F(Dynamics, TheLongestStepIsStable) {
 // to the right at first, with half the track as its arm.
 TEST_F(Dynamics, SplitGripTurnsTheCarTowardsTheBetterSide) {
   const PerWheel grip{0.2, 0.9, 0.2, 0.9};
-  VehicleState state = rolling(car_, 20.0);
+  VehicleState state = prepare::rolling(car_, 20.0);
   Command command;
   command.brake_torque = {200.0, 900.0, 150.0, 500.0};
   for (int i = 0; i < 100; ++i) {
@@ -319,7 +320,7 @@ TEST_F(Dynamics, SplitGripTurnsTheCarTowardsTheBetterSide) {
 
 TEST_F(Dynamics, RefusesWhatIsNotAStep) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const VehicleState state = rolling(car_, 10.0);
+  const VehicleState state = prepare::rolling(car_, 10.0);
   VehicleState bad = state;
   bad.v_B.y = nan;
   Command bad_command;

@@ -5,7 +5,8 @@
 
 #include <array>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::arbitration::check_test {
@@ -95,8 +96,8 @@ constexpr manoeuvre::Plan swerve{PolicyId::aes_left, std::nullopt};
 // Braking takes 24.9 m (+12 % at most) on dry road and 42.7 m at grip 0.5 (docs/architecture.md):
 // less and more than there is. What was forecast before is not asked.
 TEST(Check, DrivesBothAnew) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   const preview::ForecastTools tools{.car = &car, .harm = &harm};
   EXPECT_TRUE(check(swerve, wreck_ahead(car, 29.0, 0.5), tools).passed);
   const Check refused = check(swerve, wreck_ahead(car, 29.0, 0.9), tools);
@@ -107,8 +108,8 @@ TEST(Check, DrivesBothAnew) {
 // Braking comes to rest a centimetre before the wreck, where the wreck is thought to be; it may as
 // well be nearer or farther, by 1.5 m. Half of the time braking hits it, and who swerves does not.
 TEST(Check, ACentimetreInOneFutureDoesNotDecide) {
-  const auto car = manoeuvre::default_car();
-  const auto harm = collision::read_harm("data/harm.toml").value();
+  const auto car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
   const preview::ForecastTools tools{.car = &car, .harm = &harm};
   const std::array plans{manoeuvre::full_braking};
   const preview::Situation far = wreck_ahead(car, 40.0, 0.9);

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/preview/supposed.h"
 #include "saca/thinking/rollout/batch.h"
@@ -52,8 +53,8 @@ class ForecasterTest : public ::testing::Test {
             .grip = scene.grip};
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   Forecaster forecaster_{{.car = &car_, .harm = &harm_}};
 };
 
@@ -294,8 +295,8 @@ class CuesTest : public ::testing::Test {
     return scene;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  manoeuvre::Car car_ = prepare::default_car();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   intent::CueLaw law_;
   Forecaster forecaster_{{.car = &car_, .harm = &harm_}};
   Forecaster reckoning_{{.car = &car_, .harm = &harm_, .cues = &law_}};

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/language_model/scripted_model.h"
@@ -43,7 +44,7 @@ class Thinking : public testing::Test {
     return scene;
   }
   static const manoeuvre::Car& car() {
-    static const manoeuvre::Car it = manoeuvre::default_car();
+    static const manoeuvre::Car it = prepare::default_car();
     return it;
   }
 
@@ -74,7 +75,7 @@ class Thinking : public testing::Test {
   }
 
   ManualClock clock_;
-  collision::HarmModel harm_ = collision::read_harm("data/harm.toml").value();
+  collision::HarmModel harm_ = prepare::read_harm("data/harm.toml").value();
   std::vector<reflex::PlanCache> published_;
   std::vector<Event> events_;
   std::string text_;

@@ -13,11 +13,11 @@
 #include "saca/base/core/contract.h"
 #include "saca/base/core/names.h"
 #include "saca/base/world/time_to_conflict.h"
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/collision/ordering.h"
 #include "saca/onboard/forecast/admissible.h"
 #include "saca/thinking/language_model/token_bound.h"
 #include "saca/thinking/memory/experience.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::language_model {
 namespace {
@@ -223,7 +223,7 @@ std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool 
   if (!contact) {  // how far, and not of whom: each word of a prompt takes time
     line += fmt::format("clear by {:.1f} m", facts.outcome().clearance) + chance_text(facts);
   } else if (in_whole) {
-    line += collision::describe(facts.outcome(), scene) + chance_text(facts);
+    line += rollout::describe(facts.outcome(), scene) + chance_text(facts);
   } else {
     line +=
         contact->actor ? "hits " + actor_name(scene.actors[*contact->actor]) : "leaves the road";

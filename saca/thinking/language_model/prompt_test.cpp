@@ -8,6 +8,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
 #include "saca/thinking/language_model/example_situation.h"
 #include "saca/thinking/language_model/token_bound.h"
@@ -51,7 +52,7 @@ TEST(Prompt, PapersIntersectionIsTold) {
 // docs/formats.md shows both parts word by word.
 TEST(Prompt, DocumentedExampleIsWhatIsWritten) {
   const auto documented = read_file("docs/formats.md");
-  const auto harm = collision::read_harm("data/harm.toml");
+  const auto harm = prepare::read_harm("data/harm.toml");
   ASSERT_TRUE(documented.has_value()) << documented.error().message;
   ASSERT_TRUE(harm.has_value()) << harm.error().message;
   EXPECT_THAT(documented.value(), HasSubstr("```\n" + system_part(harm.value()) + "\n```\n"));

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/collision/ordering.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/memory/experience.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::language_model {
 namespace {
@@ -32,7 +32,7 @@ std::string review_prompt(const Aftermath& aftermath) {
   for (const manoeuvre::Plan& plan : aftermath.later) {
     text += ", then " + manoeuvre::plan_text(plan);
   }
-  text += ": " + collision::describe(aftermath.result, aftermath.met) + ", " +
+  text += ": " + rollout::describe(aftermath.result, aftermath.met) + ", " +
           harm_text(aftermath.result.harm);
   if (aftermath.forecast_harm && aftermath.later.empty()) {
     text += "; forecast was " + harm_text(*aftermath.forecast_harm);
@@ -58,7 +58,7 @@ Explanation explanation(const Review& review, const Aftermath& aftermath) {
   for (const manoeuvre::Plan& plan : aftermath.later) {
     text += ", then " + manoeuvre::plan_name(plan);
   }
-  text += fmt::format(": {}, {}.\n", collision::describe(aftermath.result, aftermath.met),
+  text += fmt::format(": {}, {}.\n", rollout::describe(aftermath.result, aftermath.met),
                       harm_text(aftermath.result.harm));
   if (was_best(aftermath)) {
     text += "2. Nothing would have harmed less.\n";

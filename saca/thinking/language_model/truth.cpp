@@ -8,13 +8,13 @@
 #include <limits>
 #include <utility>
 
-#include "saca/onboard/collision/describe.h"
 #include "saca/onboard/collision/ordering.h"
 #include "saca/thinking/language_model/conclusion.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/quote.h"
 #include "saca/thinking/language_model/quoted_number.h"
 #include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/rollout/describe.h"
 
 namespace saca::language_model {
 namespace {
@@ -368,7 +368,7 @@ bool is_so_of(Claim claim, const PolicyFacts& facts, const Situation& situation,
 std::string told(const PolicyFacts& facts, const Situation& situation) {
   return fmt::format("{} {}: {}", manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
                      facts.drivable()
-                         ? collision::describe(facts.outcome(), situation.scene_at_trigger)
+                         ? rollout::describe(facts.outcome(), situation.scene_at_trigger)
                          : "not possible");
 }
 

@@ -2,6 +2,7 @@
 
 // What forecasts of the small atlas' car are made with, for the tests of this module.
 
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
 #include "saca/onboard/collision/harm.h"
 #include "saca/thinking/preview/policy_facts.h"
@@ -9,7 +10,7 @@
 namespace saca::preview {
 
 inline const collision::HarmModel& shipped_harm() {
-  static const collision::HarmModel harm = collision::read_harm("data/harm.toml").value();
+  static const collision::HarmModel harm = prepare::read_harm("data/harm.toml").value();
   return harm;
 }
 

@@ -9,7 +9,8 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/world/time_to_conflict.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/harm_file.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/onboard/reflex/threat.h"
 #include "saca/thinking/intent/shipped_model.h"
@@ -25,15 +26,15 @@ using world::Scene;
 
 /// Two lanes to the left of the ego, one to its right.
 Scene motorway(double speed) {
-  Scene scene = test::ego_at(speed, manoeuvre::footprint(manoeuvre::default_car()));
+  Scene scene = test::ego_at(speed, manoeuvre::footprint(prepare::default_car()));
   scene.road.left_edge = 8.75;
   scene.road.right_edge = -5.25;
   return scene;
 }
 
 std::vector<Situation> look(const Scene& scene, const intent::Beliefs& beliefs) {
-  static const manoeuvre::Car car = manoeuvre::default_car();
-  static const collision::HarmModel harm = collision::read_harm("data/harm.toml").value();
+  static const manoeuvre::Car car = prepare::default_car();
+  static const collision::HarmModel harm = prepare::read_harm("data/harm.toml").value();
   return situations(scene, beliefs, {}, {.car = &car, .harm = &harm});
 }
 

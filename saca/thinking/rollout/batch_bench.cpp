@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
 namespace saca::rollout {
 namespace {
@@ -35,7 +35,7 @@ void bench_batch(benchmark::State& bench, const Work& work) {
     bench.SkipWithError("not this processor's");
     return;
   }
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const std::vector<Drive> drives = bench_drives(car);
   std::size_t poses = 0;
   for (auto _ : bench) {
@@ -72,7 +72,7 @@ void batch_scenes_in_a_row(benchmark::State& bench) {
 BENCHMARK(batch_scenes_in_a_row)->DenseRange(0, 2);
 
 void scalar_scenes(benchmark::State& bench) {
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   const std::vector<Drive> drives = bench_drives(car);
   for (auto _ : bench) {
     for (std::size_t i = 0; i < 64; i += 8) {

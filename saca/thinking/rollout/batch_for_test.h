@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/rollout/batch.h"
 #include "tests/support/levels.h"
 
@@ -13,7 +13,7 @@ inline void expect_stop_as_scalar(SimdLevel level) {
   if (!available(level)) {
     GTEST_SKIP() << "this processor has no " << test::name_of(level);
   }
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   Drive one{.car = &car, .plan = {manoeuvre::PolicyId::aeb, {}}};
   one.ego.v_B = {20.0, 0.0};
   const manoeuvre::EgoMotion reference =

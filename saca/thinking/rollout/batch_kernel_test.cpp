@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/vehicle/tyre.h"
 #include "saca/thinking/rollout/batch_start.h"
 
@@ -54,8 +54,8 @@ WheelContacts<double> contacts_in(const manoeuvre::Car& car, const StateVector& 
 
 TEST(BatchKernel, ContactsAreThoseOfTheScalarModel) {
   std::mt19937_64 rng(7);
-  for (const char* name : manoeuvre::shipped_cars) {
-    const manoeuvre::Car car = manoeuvre::shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const manoeuvre::Car car = prepare::shipped_car(name);
     for (int i = 0; i < 200; ++i) {
       const VehicleState state = random_state(rng, car);
       const double grip = std::uniform_real_distribution<double>(0.2, 1.2)(rng);
@@ -72,7 +72,7 @@ TEST(BatchKernel, ContactsAreThoseOfTheScalarModel) {
 
 TEST(BatchKernel, SlopeIsTheDerivativeOfTheForceAlongTheWheel) {
   std::mt19937_64 rng(8);
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   constexpr double more = 1e-5;  // [rad/s]
   for (int i = 0; i < 200; ++i) {
     const StateVector state_vector = state_vector_of(random_state(rng, car));
@@ -98,7 +98,7 @@ TEST(BatchKernel, SlopeIsTheDerivativeOfTheForceAlongTheWheel) {
 
 TEST(BatchKernel, BodyRatesAreThoseOfTheScalarModel) {
   std::mt19937_64 rng(9);
-  const manoeuvre::Car car = manoeuvre::default_car();
+  const manoeuvre::Car car = prepare::default_car();
   for (int i = 0; i < 100; ++i) {
     const StateVector state_vector = state_vector_of(random_state(rng, car));
     const Turn<double> heading = vehicle::equations::turn_by<double>(0.1 * i);
@@ -120,8 +120,8 @@ TEST(BatchKernel, BodyRatesAreThoseOfTheScalarModel) {
 }
 
 TEST(BatchKernel, FrontLoadIsThatOfTheScalarModel) {
-  for (const char* name : manoeuvre::shipped_cars) {
-    const manoeuvre::Car car = manoeuvre::shipped_car(name);
+  for (const char* name : prepare::shipped_cars) {
+    const manoeuvre::Car car = prepare::shipped_car(name);
     for (const double ax : {-30.0, -9.0, 0.0, 4.0, 30.0}) {  // the outer ones lift an axle
       EXPECT_NEAR(front_load(car_lane<double>(car, 0.9), ax),
                   manoeuvre::equations::front_load(car, ax), 1e-8);

@@ -12,7 +12,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/core/units.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "tests/support/levels.h"
 
 namespace saca::rollout::batch_test {
@@ -27,8 +27,8 @@ manoeuvre::EgoMotion scalar(const Drive& one, double horizon) {
 const std::vector<manoeuvre::Car>& cars() {
   static const std::vector<manoeuvre::Car> all = [] {
     std::vector<manoeuvre::Car> read;
-    for (const char* name : manoeuvre::shipped_cars) {
-      read.push_back(manoeuvre::shipped_car(name));
+    for (const char* name : prepare::shipped_cars) {
+      read.push_back(prepare::shipped_car(name));
     }
     return read;
   }();

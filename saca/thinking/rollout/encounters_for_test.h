@@ -5,13 +5,14 @@
 #include <cmath>
 #include <vector>
 
+#include "saca/lab/prepare/harm_file.h"
 #include "saca/thinking/rollout/collision_sequence.h"
 #include "tests/support/scenes.h"
 
 namespace saca::rollout {
 
 inline collision::HarmModel shipped_harm() {
-  return collision::read_harm("data/harm.toml").value();
+  return prepare::read_harm("data/harm.toml").value();
 }
 
 /// A wide road, so that edges do not matter unless a test narrows it.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "saca/base/core/contract.h"
-#include "saca/onboard/manoeuvre/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/rollout/collision_sequence.h"
 #include "saca/thinking/rollout/encounters_for_test.h"
 #include "saca/thinking/rollout/roll_out.h"
@@ -16,7 +16,7 @@ using manoeuvre::PolicyId;
 using world::ActorKind;
 
 const manoeuvre::Car& car() {
-  static const manoeuvre::Car it = manoeuvre::default_car();
+  static const manoeuvre::Car it = prepare::default_car();
   return it;
 }
 

@@ -1,4 +1,4 @@
-#include "saca/onboard/vehicle/parameters.h"
+#include "saca/lab/prepare/vehicle_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,13 +12,20 @@
 
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
-#include "saca/onboard/vehicle/default_car.h"
+#include "saca/lab/prepare/shipped_cars_for_test.h"
 
-namespace saca::vehicle::parameters_test {
+namespace saca::prepare::vehicle_file_test {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using vehicle::Command;
+using vehicle::front_left;
+using vehicle::front_right;
+using vehicle::gravity;
+using vehicle::PerWheel;
+using vehicle::usual_step;
+using vehicle::VehicleState;
 
 class Parameters : public testing::Test {
  protected:
@@ -46,7 +53,7 @@ class Parameters : public testing::Test {
 };
 
 TEST_F(Parameters, OfTheDefaultCarAreRead) {
-  const Vehicle car = default_car();
+  const vehicle::Vehicle car = default_car();
   EXPECT_EQ(car.mass, 1700.0);
   EXPECT_EQ(car.yaw_inertia, 2700.0);
   EXPECT_EQ(car.cg_to_front_axle + car.cg_to_rear_axle, 2.8);
@@ -116,7 +123,7 @@ constexpr std::array known_classes{
 
 struct NamedCar {
   KnownClass known;
-  Vehicle car;
+  vehicle::Vehicle car;
 };
 
 class EveryCar : public testing::Test {
@@ -188,9 +195,9 @@ TEST_F(EveryCar, CanLockEveryWheelOnADryRoad) {
 
 TEST_F(EveryCar, StandsTheUsualStep) {
   for (const auto& [known, car] : cars_) {
-    EXPECT_GE(longest_step(car), usual_step) << known.file;
+    EXPECT_GE(vehicle::longest_step(car), usual_step) << known.file;
   }
 }
 
 }  // namespace
-}  // namespace saca::vehicle::parameters_test
+}  // namespace saca::prepare::vehicle_file_test

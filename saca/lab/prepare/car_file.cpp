@@ -1,15 +1,16 @@
-#include "saca/onboard/manoeuvre/car.h"
+#include "saca/lab/prepare/car_file.h"
 
-#include "saca/onboard/vehicle/parameters.h"
+#include "saca/lab/prepare/tuning_file.h"
+#include "saca/lab/prepare/vehicle_file.h"
 
-namespace saca::manoeuvre {
+namespace saca::prepare {
 
 std::filesystem::path tuning_path(const std::filesystem::path& car) {
   return std::filesystem::path(car).replace_extension(".tuning.toml");
 }
 
-Result<Car> read_car(const std::filesystem::path& path) {
-  const auto parameters = vehicle::read_vehicle(path);
+Result<manoeuvre::Car> read_car(const std::filesystem::path& path) {
+  const auto parameters = read_vehicle(path);
   if (!parameters.has_value()) {
     return parameters.error();
   }
@@ -22,7 +23,7 @@ Result<Car> read_car(const std::filesystem::path& path) {
     }
     return error;
   }
-  return Car{parameters.value(), tuning.value()};
+  return manoeuvre::Car{parameters.value(), tuning.value()};
 }
 
-}  // namespace saca::manoeuvre
+}  // namespace saca::prepare

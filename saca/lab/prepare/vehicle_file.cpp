@@ -1,16 +1,16 @@
-#include "saca/onboard/vehicle/parameters.h"
+#include "saca/lab/prepare/vehicle_file.h"
 
 #include "saca/base/config/config.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
 
-namespace saca::vehicle {
+namespace saca::prepare {
 namespace {
 
 using config::Table;
 
 // Ranges are wide enough for anything with four wheels, and narrow enough to catch a wrong unit.
-void read_body(Table table, Vehicle& car) {
+void read_body(Table table, vehicle::Vehicle& car) {
   car.mass = table.number("mass_kg", {300.0, 60'000.0});
   car.yaw_inertia = table.number("yaw_inertia_kgm2", {100.0, 1e6});
   car.cg_to_front_axle = table.number("front_arm_m", {0.3, 10.0});
@@ -29,20 +29,20 @@ void read_body(Table table, Vehicle& car) {
   }
 }
 
-void read_wheels(Table table, Vehicle& car) {
+void read_wheels(Table table, vehicle::Vehicle& car) {
   car.wheel_radius = table.number("radius_m", {0.15, 0.8});
   car.front_wheel_inertia = table.number("front_inertia_kgm2", {0.5, 50.0});
   car.rear_wheel_inertia = table.number("rear_inertia_kgm2", {0.5, 50.0});
 }
 
-void read_tyre(Table table, Vehicle& car) {
+void read_tyre(Table table, vehicle::Vehicle& car) {
   car.tyre.stiffness = table.number("stiffness", {5.0, 40.0});
   car.tyre.shape = table.number("shape", {1.05, 1.9});
   car.tyre.load_sensitivity = table.number("load_sensitivity", {0.0, 0.3});
   car.tyre.nominal_load = table.number("nominal_load_N", {500.0, 60'000.0});
 }
 
-void read_actuators(Table& root, Vehicle& car) {
+void read_actuators(Table& root, vehicle::Vehicle& car) {
   Table steering = root.table("steering");
   car.steering_lag = steering.number("lag_s", {0.005, 1.0});
   car.steering_rate = from_degrees(steering.number("rate_degps", {5.0, 500.0}));
@@ -59,7 +59,7 @@ void read_actuators(Table& root, Vehicle& car) {
 
 }  // namespace
 
-Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
+Result<vehicle::Vehicle> read_vehicle(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text.has_value()) {
     return text.error();
@@ -67,19 +67,19 @@ Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   return parse_vehicle(text.value(), path.string());
 }
 
-Result<Vehicle> parse_vehicle(std::string_view text, std::string_view source) {
+Result<vehicle::Vehicle> parse_vehicle(std::string_view text, std::string_view source) {
   const auto document = config::Document::parse(text, source);
   if (!document.has_value()) {
     return document.error();
   }
   Table root = document.value().root();
-  Vehicle car{};
+  vehicle::Vehicle car{};
   (void)root.text("name");
   read_body(root.table("body"), car);
   read_wheels(root.table("wheels"), car);
   read_tyre(root.table("tyre"), car);
   read_actuators(root, car);
-  if (!document.value().error().has_value() && longest_step(car) < usual_step) {
+  if (!document.value().error().has_value() && vehicle::longest_step(car) < vehicle::usual_step) {
     root.reject("wheels", "want wheels heavy enough, or tyres soft enough, for steps of 1 ms");
   }
   if (const auto error = document.value().error(); error.has_value()) {
@@ -88,4 +88,4 @@ Result<Vehicle> parse_vehicle(std::string_view text, std::string_view source) {
   return car;
 }
 
-}  // namespace saca::vehicle
+}  // namespace saca::prepare

@@ -1,10 +1,10 @@
-#include "saca/onboard/collision/describe.h"
+#include "saca/thinking/rollout/describe.h"
 
 #include <fmt/core.h>
 
 #include "saca/base/core/contract.h"
 
-namespace saca::collision {
+namespace saca::rollout {
 namespace {
 
 std::string called(std::size_t actor, std::span<const world::Actor> actors) {
@@ -13,16 +13,16 @@ std::string called(std::size_t actor, std::span<const world::Actor> actors) {
 }
 
 // What is met with which face, e.g. "car1 with its front at 4.2 m/s".
-std::string forecast(const Contact& contact, std::span<const world::Actor> actors,
+std::string forecast(const collision::Contact& contact, std::span<const world::Actor> actors,
                      std::string_view edge) {
   return fmt::format("{} with its {} at {:.1f} m/s",
                      contact.actor ? called(*contact.actor, actors) : std::string(edge),
-                     name(contact.ego_face), contact.relative_speed);
+                     collision::name(contact.ego_face), contact.relative_speed);
 }
 
-std::string staying_clear(const Outcome& outcome, std::span<const world::Actor> actors) {
-  if (!(outcome.clearance < far_away)) {
-    return fmt::format("clear: nobody within {:.0f} m", far_away);
+std::string staying_clear(const collision::Outcome& outcome, std::span<const world::Actor> actors) {
+  if (!(outcome.clearance < collision::far_away)) {
+    return fmt::format("clear: nobody within {:.0f} m", collision::far_away);
   }
   std::string by = fmt::format("clear by {:.1f} m", outcome.clearance);
   if (!outcome.nearest) {
@@ -34,27 +34,27 @@ std::string staying_clear(const Outcome& outcome, std::span<const world::Actor> 
 
 }  // namespace
 
-std::string nearest_name(const Nearest& nearest, std::span<const world::Actor> actors) {
-  return nearest.actor                 ? called(*nearest.actor, actors)
-         : *nearest.edge == Side::left ? "the road's left edge"
-                                       : "the road's right edge";
+std::string nearest_name(const collision::Nearest& nearest, std::span<const world::Actor> actors) {
+  return nearest.actor                            ? called(*nearest.actor, actors)
+         : *nearest.edge == collision::Side::left ? "the road's left edge"
+                                                  : "the road's right edge";
 }
 
-std::string describe(const Outcome& outcome, std::span<const world::Actor> actors) {
+std::string describe(const collision::Outcome& outcome, std::span<const world::Actor> actors) {
   if (!outcome.contact) {
     return staying_clear(outcome, actors);
   }
   std::string text = outcome.contact->actor ? "hits " : "leaves ";
   text += forecast(*outcome.contact, actors, "the road");
-  for (const Contact& contact : outcome.later) {
+  for (const collision::Contact& contact : outcome.later) {
     text += ", then " + forecast(contact, actors, "the road's edge");
   }
   return text;
 }
 
-std::string describe(const Outcome& outcome, const world::Scene& scene) {
+std::string describe(const collision::Outcome& outcome, const world::Scene& scene) {
   return describe(outcome,
                   std::span<const world::Actor>(scene.actors.begin(), scene.actors.size()));
 }
 
-}  // namespace saca::collision
+}  // namespace saca::rollout
