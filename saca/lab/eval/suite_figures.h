@@ -58,7 +58,7 @@ struct MethodFigures {
   std::map<std::string, int> reasons;                  ///< likewise
   std::optional<encounter::ThinkingFigures> thinking;  ///< summed, without answers; nullopt: the
                                                        ///< method does not think ahead
-  std::optional<ExpectedFigures> expected;  ///< nullopt: nothing was decided by verdicts
+  std::optional<ExpectedFigures> expected;             ///< nullopt: nothing was decided by verdicts
   int faults = 0;
 };
 
