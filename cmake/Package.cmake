@@ -2,7 +2,9 @@
 # and its data and scenarios in share/saca.
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/saca)
-install(EXPORT saca_targets NAMESPACE saca:: DESTINATION ${package})
+foreach(component reflex runtime lab)
+  install(EXPORT saca_${component}_targets NAMESPACE saca:: DESTINATION ${package})
+endforeach()
 set(SACA_DATA_FOLDER ${CMAKE_INSTALL_DATADIR}/saca)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/sacaConfig.cmake.in
   ${PROJECT_BINARY_DIR}/sacaConfig.cmake INSTALL_DESTINATION ${package} PATH_VARS SACA_DATA_FOLDER)

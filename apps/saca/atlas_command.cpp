@@ -17,10 +17,12 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
+#include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/atlas_check.h"
 #include "saca/lab/families/splits.h"
 #include "saca/onboard/atlas/atlas_file.h"
+#include "saca/onboard/reflex/vehicle_package.h"
 
 namespace saca::app {
 namespace {
@@ -68,6 +70,35 @@ int build(const AtlasOptions& options) {
   std::error_code unknown;
   app::print("{}: {} points, {:.1f} MB\n", output.string(), atlas.value()->nodes().size(),
              1e-6 * static_cast<double>(fs::file_size(output, unknown)));
+  return success;
+}
+
+/// One file for a vehicle: the car's numbers, the harm model and the atlas.
+int package(const AtlasOptions& options, const std::string& package_file) {
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  const fs::path file = file_of(options, inputs.value());
+  const auto atlas = read_file(file, many_bytes);
+  const auto right = atlas.has_value()
+                         ? atlas::parse_atlas(atlas.value(), file.string(), inputs.value().car)
+                         : atlas.error();
+  if (!right.has_value()) {
+    Error error = right.error();
+    error.message += " (`saca atlas build --car " + options.car + "` makes it)";
+    return refused(error);
+  }
+  const std::string name = inputs.value().car_name.substr(0, reflex::longest_package_name);
+  const fs::path output =
+      package_file.empty() ? fs::path(name + ".vehicle") : fs::path(package_file);
+  const std::string bytes =
+      reflex::vehicle_package_bytes(name, inputs.value().car, inputs.value().harm, atlas.value());
+  if (const auto problem = write_output(output, bytes)) {
+    return refused(*problem);
+  }
+  app::print("{}: {}, {:.1f} MB\n", output.string(), name,
+             1e-6 * static_cast<double>(bytes.size()));
   return success;
 }
 
@@ -278,6 +309,14 @@ void add_atlas(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   make->callback([options, &exit_code] { exit_code = build(*options); });
+
+  CLI::App* const carried = command->add_subcommand(
+      "package", "Car, tuning, harm model and atlas as one file, which a vehicle reads");
+  carried->add_option("FILE", options->file, usual_file);
+  add_common(*carried, *options);
+  const auto package_file = std::make_shared<std::string>();
+  carried->add_option("--output", *package_file, "Default: CAR.vehicle");
+  carried->callback([=, &exit_code] { exit_code = package(*options, *package_file); });
 
   CLI::App* const info =
       command->add_subcommand("info", "What a file holds, and whether it can be used");

@@ -128,3 +128,20 @@ def test_an_altered_atlas_is_refused(own_atlas, tmp_path):
     for name, altered in {"cut.atlas": whole[:-1000], "flipped.atlas": whole[:500_000] + bytes([whole[500_000] ^ 1]) + whole[500_001:]}.items():
         (tmp_path / name).write_bytes(altered)
         assert name in one_error(run("--atlas", name, cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_package_is_one_file_of_one_car(own_atlas, tmp_path):
+    made = saca("atlas", "package", own_atlas, "--output", "own.vehicle", cwd=tmp_path)
+    assert made.returncode == 0 and "own.vehicle: compact_rwd_ev, " in made.stdout
+    package = (tmp_path / "own.vehicle").read_bytes()
+    assert package.startswith(b"SACAVPKG") and package.endswith(own_atlas.read_bytes()) and b"compact_rwd_ev" in package
+    again = saca("atlas", "package", own_atlas, cwd=tmp_path)
+    assert again.returncode == 0 and (tmp_path / "compact_rwd_ev.vehicle").read_bytes() == package, "same inputs, same bytes"
+
+
+def test_a_package_needs_an_atlas_of_its_car(own_atlas, tmp_path):
+    other = one_error(saca("atlas", "package", own_atlas, "--car", "midsize_suv", cwd=tmp_path), BAD_INPUT)
+    assert "own.atlas: is of another car" in other and "saca atlas build --car midsize_suv" in other
+    assert "none.atlas" in one_error(saca("atlas", "package", "none.atlas", cwd=tmp_path), BAD_INPUT)
+    (tmp_path / "file").write_text("")
+    assert "file" in one_error(saca("atlas", "package", own_atlas, "--output", "file/a.vehicle", cwd=tmp_path), CANNOT_WRITE)

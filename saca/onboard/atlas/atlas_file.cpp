@@ -50,8 +50,8 @@ std::string_view bytes_of(const Header& header) {
   return {reinterpret_cast<const char*>(&header), offsetof(Header, header_sum)};
 }
 
-Error broken(const std::filesystem::path& path, const std::string& what) {
-  return {Error::Code::malformed, path.string() + ": " + what};
+Error broken(const std::string& source, const std::string& what) {
+  return {Error::Code::malformed, source + ": " + what};
 }
 
 std::string as_hex(std::uint64_t number) {
@@ -76,30 +76,30 @@ bool sensible(const AtlasGrid& grid) {
   return true;
 }
 
-std::optional<Error> fault(const std::filesystem::path& path, const Header& header,
+std::optional<Error> fault(const std::string& source, const Header& header,
                            std::string_view bytes) {
   if (header.sign != magic) {
-    return broken(path, "is no atlas: want a file that begins with SACAATLS");
+    return broken(source, "is no atlas: want a file that begins with SACAATLS");
   }
   if (header.order != byte_order) {
-    return broken(path, "was written on a machine with another order of bytes");
+    return broken(source, "was written on a machine with another order of bytes");
   }
   if (header.version != atlas_version) {
-    return broken(path, "want version " + std::to_string(atlas_version) + ", got " +
-                            std::to_string(header.version) + ": build it anew");
+    return broken(source, "want version " + std::to_string(atlas_version) + ", got " +
+                              std::to_string(header.version) + ": build it anew");
   }
   if (header.header_bytes != sizeof(Header) || header.node_bytes != sizeof(AtlasNode) ||
       header.header_sum != sum_of(bytes_of(header)) || !sensible(header.grid) ||
       header.num_nodes != num_nodes(header.grid)) {
-    return broken(path, "the header was altered: its checksum does not hold");
+    return broken(source, "the header was altered: its checksum does not hold");
   }
   const std::uint64_t wanted = sizeof(Header) + header.num_nodes * sizeof(AtlasNode);
   if (bytes.size() != wanted) {
-    return broken(path, "want " + std::to_string(wanted) + " bytes, got " +
-                            std::to_string(bytes.size()) + ": it is not whole");
+    return broken(source, "want " + std::to_string(wanted) + " bytes, got " +
+                              std::to_string(bytes.size()) + ": it is not whole");
   }
   if (header.body_sum != sum_of(bytes.substr(sizeof(Header)))) {
-    return broken(path, "was altered: the checksum of its nodes does not hold");
+    return broken(source, "was altered: the checksum of its nodes does not hold");
   }
   return std::nullopt;
 }
@@ -121,20 +121,16 @@ struct OpenAtlas {
   std::span<const AtlasNode> nodes;  ///< in `bytes`
 };
 
-Result<OpenAtlas> open_whole(const std::filesystem::path& path) {
-  auto read = read_file(path, many_bytes);
-  if (!read.has_value()) {
-    return read.error();
-  }
-  const auto bytes = std::make_shared<const std::string>(std::move(read).value());
+Result<OpenAtlas> open_whole(std::string all, const std::string& source) {
+  const auto bytes = std::make_shared<const std::string>(std::move(all));
   if (bytes->size() < sizeof(Header)) {
-    return broken(path, "is no atlas, or cut short: want at least " +
-                            std::to_string(sizeof(Header)) + " bytes, got " +
-                            std::to_string(bytes->size()));
+    return broken(source, "is no atlas, or cut short: want at least " +
+                              std::to_string(sizeof(Header)) + " bytes, got " +
+                              std::to_string(bytes->size()));
   }
   const auto header = std::make_shared<Header>();
   std::memcpy(static_cast<void*>(header.get()), bytes->data(), sizeof(Header));
-  if (auto problem = fault(path, *header, *bytes)) {
+  if (auto problem = fault(source, *header, *bytes)) {
     return *problem;
   }
   // The header's size keeps the nodes' alignment.
@@ -144,8 +140,8 @@ Result<OpenAtlas> open_whole(const std::filesystem::path& path) {
   const auto wrong = std::find_if_not(nodes.begin(), nodes.end(),
                                       [](const AtlasNode& node) { return sensible(node); });
   if (wrong != nodes.end()) {
-    return broken(path, "node " + std::to_string(wrong - nodes.begin()) +
-                            ": want finite scales and times of 0 s or more");
+    return broken(source, "node " + std::to_string(wrong - nodes.begin()) +
+                              ": want finite scales and times of 0 s or more");
   }
   return OpenAtlas{bytes, header, nodes};
 }
@@ -174,19 +170,27 @@ std::string atlas_bytes(const manoeuvre::Car& car, const AtlasGrid& grid,
 }
 
 Result<Atlas> read_atlas(const std::filesystem::path& path, const manoeuvre::Car& car) {
-  const auto opened = open_whole(path);
+  auto bytes = read_file(path, many_bytes);
+  if (!bytes.has_value()) {
+    return bytes.error();
+  }
+  return parse_atlas(std::move(bytes).value(), path.string(), car);
+}
+
+Result<Atlas> parse_atlas(std::string bytes, const std::string& source, const manoeuvre::Car& car) {
+  const auto opened = open_whole(std::move(bytes), source);
   if (!opened.has_value()) {
     return opened.error();
   }
   const Header& header = *opened.value().header;
   if (header.car != car_hash(car)) {
-    return Error{Error::Code::out_of_range, path.string() + ": is of another car or tuning: want " +
+    return Error{Error::Code::out_of_range, source + ": is of another car or tuning: want " +
                                                 as_hex(car_hash(car)) + ", got " +
                                                 as_hex(header.car) + ": build it anew"};
   }
   if (!alike(header.driven, behaviour(car))) {
     return Error{Error::Code::out_of_range,
-                 path.string() +
+                 source +
                      ": was driven by another vehicle model or controller than this program's: "
                      "build it anew"};
   }
@@ -194,7 +198,11 @@ Result<Atlas> read_atlas(const std::filesystem::path& path, const manoeuvre::Car
 }
 
 Result<AtlasInfo> read_atlas_info(const std::filesystem::path& path) {
-  const auto opened = open_whole(path);
+  auto bytes = read_file(path, many_bytes);
+  if (!bytes.has_value()) {
+    return bytes.error();
+  }
+  const auto opened = open_whole(std::move(bytes).value(), path.string());
   if (!opened.has_value()) {
     return opened.error();
   }

@@ -22,6 +22,10 @@ namespace saca::atlas {
 ///          out_of_range (another car, other controllers), naming the file, wanted and got
 [[nodiscard]] Result<Atlas> read_atlas(const std::filesystem::path& path,
                                        const manoeuvre::Car& car);
+/// Likewise, from the bytes of such a file, which the atlas keeps.
+/// @param source  name for messages, usually the path
+[[nodiscard]] Result<Atlas> parse_atlas(std::string bytes, const std::string& source,
+                                        const manoeuvre::Car& car);
 
 /// What a file says of itself, whosever it is; checksums hold.
 struct AtlasInfo {

@@ -1,11 +1,7 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <string>
 #include <string_view>
-
-#include "saca/base/core/result.h"
 
 namespace saca::manoeuvre {
 

@@ -1,22 +1,34 @@
 // SACA in a driving stack: scenes go in at 100 Hz, steering and brakes come out; forecaster and
 // thinking plane work beside, on threads of their own. Built against an installed package.
 #include <cstdio>
+#include <filesystem>
+#include <optional>
 
-#include "saca/lab/prepare/car_file.h"
-#include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
+#include "saca/onboard/reflex/vehicle_package.h"
 #include "saca/runtime/avoider.h"
 
-int main() {
+int main(int num_arguments, char** arguments) {
   using namespace saca;
+  if (num_arguments != 2) {
+    std::fprintf(stderr, "usage: full_stack CAR.vehicle\n");
+    return 2;
+  }
+  const auto package = reflex::read_vehicle_package(arguments[1]);
   const std::filesystem::path data = SACA_DATA;
-  const auto car = prepare::read_car(data / "data/vehicles/compact_rwd_ev.toml").value();
-  const auto harm = prepare::read_harm(data / "data/harm.toml").value();
-  const auto intent = intent::read_model(data / "models/intent/model.safetensors").value();
+  const auto intent = intent::read_model(data / "models/intent/model.safetensors");
+  for (const auto& problem : {package.has_value() ? std::nullopt : std::optional(package.error()),
+                              intent.has_value() ? std::nullopt : std::optional(intent.error())}) {
+    if (problem) {
+      std::fprintf(stderr, "full_stack: %s\n", problem->message.c_str());
+      return 3;
+    }
+  }
+  const auto& [car_name, car, harm, atlas] = package.value();
   SteadyClock clock;
   Avoider avoider(
-      {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
-       .intent = &intent});  // .memory and .model as well, where there are any
+      {.planes = {.forecast = {&car, &harm, &atlas}, .pace = runtime::Pace::real, .clock = &clock},
+       .intent = &intent.value()});  // .memory and .model as well, where there are any
 
   world::Scene scene;  // 14 m/s on a dry road, a wreck ahead
   scene.ego.v_B = {14.0, 0.0};
