@@ -11,6 +11,7 @@
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
+#include "saca/lab/prepare/car_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {

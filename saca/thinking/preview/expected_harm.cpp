@@ -12,6 +12,7 @@
 #include "saca/thinking/intent/joint.h"
 #include "saca/thinking/preview/follower_answers.h"
 #include "saca/thinking/rollout/batch.h"
+#include "saca/thinking/rollout/collision_sequence.h"
 
 namespace saca::preview {
 namespace {
