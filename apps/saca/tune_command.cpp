@@ -16,6 +16,7 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/prepare/car_file.h"
 #include "saca/lab/prepare/tuning_file.h"
 #include "saca/lab/prepare/vehicle_file.h"
 #include "saca/lab/tune/minimise.h"

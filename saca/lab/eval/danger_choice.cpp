@@ -8,6 +8,7 @@
 #include "saca/lab/learned_danger/perceived.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/onboard/reflex/verdict.h"
+#include "saca/thinking/arbitration/forecaster.h"
 #include "saca/thinking/preview/policy_danger.h"
 
 namespace saca::eval {
