@@ -78,9 +78,7 @@ scenario::Scenario case_world(const scenario::Scenario& drawn, std::uint64_t see
 }
 
 std::uint64_t number_of_record(const std::string& name) {
-  Fnv hash;
-  hash.add(name);
-  return hash.value();
+  return fnv1a(name);
 }
 
 encounter::Stage case_stage(const scenario::Scenario& world, const Inputs& inputs,

@@ -34,4 +34,11 @@ class Fnv {
   std::uint64_t hash_ = 14695981039346656037U;
 };
 
+/// The published function of one text.
+constexpr std::uint64_t fnv1a(std::string_view text) {
+  Fnv hash;
+  hash.add(text);
+  return hash.value();
+}
+
 }  // namespace saca

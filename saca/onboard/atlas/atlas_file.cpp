@@ -39,12 +39,6 @@ struct Header {
 static_assert(std::is_trivially_copyable_v<Header>);
 static_assert(sizeof(Header) % 8 == 0);
 
-std::uint64_t sum_of(std::string_view bytes) {
-  Fnv sum;
-  sum.add(bytes);
-  return sum.value();
-}
-
 std::string_view bytes_of(const Header& header) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes may be read so
   return {reinterpret_cast<const char*>(&header), offsetof(Header, header_sum)};
@@ -89,7 +83,7 @@ std::optional<Error> fault(const std::string& source, const Header& header,
                               std::to_string(header.version) + ": build it anew");
   }
   if (header.header_bytes != sizeof(Header) || header.node_bytes != sizeof(AtlasNode) ||
-      header.header_sum != sum_of(bytes_of(header)) || !sensible(header.grid) ||
+      header.header_sum != fnv1a(bytes_of(header)) || !sensible(header.grid) ||
       header.num_nodes != num_nodes(header.grid)) {
     return broken(source, "the header was altered: its checksum does not hold");
   }
@@ -98,7 +92,7 @@ std::optional<Error> fault(const std::string& source, const Header& header,
     return broken(source, "want " + std::to_string(wanted) + " bytes, got " +
                               std::to_string(bytes.size()) + ": it is not whole");
   }
-  if (header.body_sum != sum_of(bytes.substr(sizeof(Header)))) {
+  if (header.body_sum != fnv1a(bytes.substr(sizeof(Header)))) {
     return broken(source, "was altered: the checksum of its nodes does not hold");
   }
   return std::nullopt;
@@ -161,8 +155,8 @@ std::string atlas_bytes(const manoeuvre::Car& car, const AtlasGrid& grid,
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes may be read so
   const std::string_view body(reinterpret_cast<const char*>(nodes.data()),
                               nodes.size() * sizeof(AtlasNode));
-  header->body_sum = sum_of(body);
-  header->header_sum = sum_of(bytes_of(*header));
+  header->body_sum = fnv1a(body);
+  header->header_sum = fnv1a(bytes_of(*header));
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes may be read so
   std::string all(reinterpret_cast<const char*>(header.get()), sizeof(Header));
   all += body;

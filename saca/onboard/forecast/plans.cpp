@@ -22,7 +22,7 @@ Plans all_plans(double speed, Braking braking) {
       }
       continue;
     }
-    for (const double share : forecast::target_shares) {
+    for (const double share : target_shares) {
       plans.push_back({policy, share * speed});
     }
   }

@@ -19,11 +19,10 @@ enum class Braking : std::uint8_t {
 [[nodiscard]] std::span<const double> strengths_of(Braking braking);
 
 /// Every plan that can be chosen at `speed` [m/s]: each policy, 3 and 4 once for each of
-/// forecast::target_shares of it, and 0 once more for each of manoeuvre::braking_strengths; of each
+/// target_shares of it, and 0 once more for each of manoeuvre::braking_strengths; of each
 /// the default (manoeuvre::default_plan) first. Allocates nothing.
-using Plans =
-    StaticVector<manoeuvre::Plan, manoeuvre::num_policies + 2 * forecast::target_shares.size() +
-                                      manoeuvre::braking_strengths.size()>;
+using Plans = StaticVector<manoeuvre::Plan, manoeuvre::num_policies + 2 * target_shares.size() +
+                                                manoeuvre::braking_strengths.size()>;
 [[nodiscard]] Plans all_plans(double speed, Braking braking = Braking::any_strength);
 
 }  // namespace saca::forecast

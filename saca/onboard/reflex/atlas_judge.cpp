@@ -44,7 +44,7 @@ AtlasJudge::AtlasJudge(const manoeuvre::Car& car, const atlas::Atlas& atlas,
 }
 
 std::optional<JudgedPlan> AtlasJudge::judged(const Plan& plan, const Scene& scene,
-                                             const reflex::Followers& followers) noexcept {
+                                             const Followers& followers) noexcept {
   JudgedPlan one{.plan = plan, .drivable = !manoeuvre::why_refused(*car_, plan, scene)};
   if (!one.drivable) {
     return one;
@@ -56,7 +56,7 @@ std::optional<JudgedPlan> AtlasJudge::judged(const Plan& plan, const Scene& scen
   if (!followers.empty()) {
     forecast::atlas_way(atlas_, plan, scene, {.step = reacting_step, .longest = looks_ahead},
                         X_WB_);
-    reflex::let_react(scene, followers, X_WB_, scene.time + looks_ahead, reacting_step, tracks);
+    let_react(scene, followers, X_WB_, scene.time + looks_ahead, reacting_step, tracks);
   }
   const forecast::Future future = forecast::future(atlas_, plan, scene, tracks, *harm_);
   one.harm = future.harm;
@@ -68,8 +68,8 @@ std::optional<Verdict> AtlasJudge::judge(const Scene& scene) noexcept {
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     write_going_on(scene.actors[i], scene.time, tracks_[i]);
   }
-  const reflex::Followers followers = reflex::followers_of(scene);
-  const Scene known = reflex::with_kept_gaps(scene, followers);
+  const Followers followers = followers_of(scene);
+  const Scene known = with_kept_gaps(scene, followers);
   Verdict verdict{.time = scene.time};
   for (const Plan& plan : forecast::all_plans(scene.ego.v_B.x, braking_)) {
     if (const auto one = judged(plan, known, followers)) {

@@ -37,7 +37,7 @@ class AtlasJudge {
  private:
   [[nodiscard]] std::optional<JudgedPlan> judged(const manoeuvre::Plan& plan,
                                                  const world::Scene& scene,
-                                                 const reflex::Followers& followers) noexcept;
+                                                 const Followers& followers) noexcept;
 
   const manoeuvre::Car* car_;
   atlas::Atlas atlas_;

@@ -100,11 +100,11 @@ bool ReflexPlane::is_watched(const Scene& scene) const noexcept {
          scene.time >= watched_at_ + look_ahead - rounding;
 }
 
-std::optional<reflex::Threat> ReflexPlane::foreseen(
-    const Scene& scene, const TrackConfirmation& tracks) const noexcept {
-  reflex::Thresholds within_t2 = tools_.thresholds;
+std::optional<Threat> ReflexPlane::foreseen(const Scene& scene,
+                                            const TrackConfirmation& tracks) const noexcept {
+  Thresholds within_t2 = tools_.thresholds;
   within_t2.trigger = within_t2.preview;
-  return reflex::triggering_threat(scene, within_t2, tracks.confirmed());
+  return triggering_threat(scene, within_t2, tracks.confirmed());
 }
 
 bool ReflexPlane::agrees_with_last() noexcept {
@@ -113,7 +113,7 @@ bool ReflexPlane::agrees_with_last() noexcept {
 }
 
 std::optional<Decision> ReflexPlane::decide_early(const Scene& scene,
-                                                  const reflex::Threat& threat) noexcept {
+                                                  const Threat& threat) noexcept {
   watched_at_ = scene.time;
   const auto cost = is_fresh(verdict_, scene) ? cost_of_waiting(*verdict_) : std::nullopt;
   if (!cost || *cost <= *tools_.thresholds.waiting_cost || !agrees_with_last()) {
@@ -133,8 +133,7 @@ bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcep
   }
   TrackConfirmation tracks = tracks_;
   tracks.look(scene);
-  const bool triggers =
-      reflex::triggering_threat(scene, tools_.thresholds, tracks.confirmed()).has_value();
+  const bool triggers = triggering_threat(scene, tools_.thresholds, tracks.confirmed()).has_value();
   if (under_way_) {
     return supervisor_.is_due(scene, *under_way_, triggers, finished);
   }
@@ -151,10 +150,10 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
     return reflex;
   }
   tracks_.look(scene);
-  const auto trigger = reflex::triggering_threat(scene, tools_.thresholds, tracks_.confirmed());
+  const auto trigger = triggering_threat(scene, tools_.thresholds, tracks_.confirmed());
   reflex.threat = trigger ? trigger
-                          : reflex::nearest_threat(scene, tools_.thresholds.preview,
-                                                   tools_.thresholds.trigger_tolerance);
+                          : nearest_threat(scene, tools_.thresholds.preview,
+                                           tools_.thresholds.trigger_tolerance);
   if (!decision_ && trigger) {
     decision_ = decide(scene);
   } else if (!decision_ && is_watched(scene)) {

@@ -51,18 +51,18 @@ struct Decision {
 /// What the reflex plane says to one scene.
 struct Reflex {
   manoeuvre::Plan plan{manoeuvre::PolicyId::no_intervention,
-                       std::nullopt};    ///< valid at every instant
-  std::optional<reflex::Threat> threat;  ///< what sets off the trigger; where nothing does, the
-                                         ///< nearest conflict within T2, the ego going on in its
-                                         ///< lane and the others as they do
-  bool triggered = false;                ///< in this very call
+                       std::nullopt};  ///< valid at every instant
+  std::optional<Threat> threat;        ///< what sets off the trigger; where nothing does, the
+                                       ///< nearest conflict within T2, the ego going on in its
+                                       ///< lane and the others as they do
+  bool triggered = false;              ///< in this very call
   std::optional<Switch> switched;  ///< in this very call: `plan` begins now, in place of another
   bool refused_scene = false;      ///< the scene broke a rule and was left aside
 };
 
 /// What the reflex plane decides with. What it points to outlives the plane.
 struct ReflexTools {
-  reflex::Thresholds thresholds;
+  Thresholds thresholds;
   const manoeuvre::Car* car = nullptr;    ///< nullptr: what cannot be driven is not found out
   std::optional<AtlasJudge> atlas;        ///< nullopt: without a verdict, cached plans are taken
                                           ///< unless their last forecast was worse than braking's
@@ -135,13 +135,13 @@ class ReflexPlane {
   /// Whether verdicts are looked at before T1, and the last was a while ago.
   [[nodiscard]] bool is_watched(const world::Scene& scene) const noexcept;
   /// Who comes into conflict within T2.
-  [[nodiscard]] std::optional<reflex::Threat> foreseen(
-      const world::Scene& scene, const TrackConfirmation& tracks) const noexcept;
+  [[nodiscard]] std::optional<Threat> foreseen(const world::Scene& scene,
+                                               const TrackConfirmation& tracks) const noexcept;
   /// Has the verdict before said, too, that waiting costs too much?
   [[nodiscard]] bool agrees_with_last() noexcept;
   /// What is decided before T1; nullopt: to wait.
   [[nodiscard]] std::optional<Decision> decide_early(const world::Scene& scene,
-                                                     const reflex::Threat& threat) noexcept;
+                                                     const Threat& threat) noexcept;
 
   ReflexTools tools_;
   PlanCache plans_;

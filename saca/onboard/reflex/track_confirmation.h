@@ -48,7 +48,7 @@ class TrackConfirmation {
   void look(const world::Scene& scene) noexcept;
 
   /// Who of the newest scene is confirmed.
-  [[nodiscard]] const reflex::ActorSet& confirmed() const noexcept { return confirmed_; }
+  [[nodiscard]] const ActorSet& confirmed() const noexcept { return confirmed_; }
 
  private:
   struct Track {
@@ -78,7 +78,7 @@ class TrackConfirmation {
   [[nodiscard]] bool is_look(const world::Scene& scene) const noexcept;
 
   StaticVector<Track, 2 * world::max_actors> tracks_;  ///< who is there, and who was lately
-  reflex::ActorSet confirmed_;
+  ActorSet confirmed_;
   double newest_ = never;     ///< scene [s]
   double looked_at_ = never;  ///< time of the newest look [s]
 };

@@ -45,12 +45,6 @@ struct Header {
 static_assert(std::is_trivially_copyable_v<Header>);
 static_assert(sizeof(Header) % 8 == 0);
 
-std::uint64_t sum_of(std::string_view bytes) {
-  Fnv sum;
-  sum.add(bytes);
-  return sum.value();
-}
-
 std::string_view bytes_of(const Header& header) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes may be read so
   return {reinterpret_cast<const char*>(&header), offsetof(Header, header_sum)};
@@ -72,7 +66,7 @@ std::optional<std::string> fault(const Header& header, std::string_view bytes) {
     return "want version " + std::to_string(package_version) + ", got " +
            std::to_string(header.version) + ": make it anew";
   }
-  if (header.header_bytes != sizeof(Header) || header.header_sum != sum_of(bytes_of(header)) ||
+  if (header.header_bytes != sizeof(Header) || header.header_sum != fnv1a(bytes_of(header)) ||
       header.name.back() != 0 || !is_finite(header.car) || !is_finite(header.harm)) {
     return "the head was altered: its checksum does not hold";
   }
@@ -81,7 +75,7 @@ std::optional<std::string> fault(const Header& header, std::string_view bytes) {
     return "want " + std::to_string(header.atlas_bytes) + " bytes of its atlas, got " +
            std::to_string(atlas.size()) + ": it is not whole";
   }
-  if (header.atlas_sum != sum_of(atlas)) {
+  if (header.atlas_sum != fnv1a(atlas)) {
     return "was altered: the checksum of its atlas does not hold";
   }
   return std::nullopt;
@@ -96,12 +90,12 @@ std::string vehicle_package_bytes(std::string_view name, const manoeuvre::Car& c
   Header header;
   header.header_bytes = sizeof(Header);
   header.atlas_bytes = atlas.size();
-  header.atlas_sum = sum_of(atlas);
+  header.atlas_sum = fnv1a(atlas);
   std::copy(name.begin(), name.end(), header.name.begin());
   header.car = std::bit_cast<Numbers<manoeuvre::Car>>(car);
   header.harm = std::bit_cast<Numbers<collision::HarmModel>>(harm);
   expects(is_finite(header.car) && is_finite(header.harm), "finite numbers");
-  header.header_sum = sum_of(bytes_of(header));
+  header.header_sum = fnv1a(bytes_of(header));
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes may be read so
   std::string all(reinterpret_cast<const char*>(&header), sizeof(Header));
   all += atlas;
