@@ -61,7 +61,7 @@ struct Air3dRun {
 };
 
 template <class Real>
-Result<Air3dRun<Real>> air3d_run(const danger::Grid& grid, int threads, Clock& clock) {
+Result<Air3dRun<Real>> air3d_run(const danger::Grid& grid, int threads, const Clock& clock) {
   constexpr double horizon = 2.8;
   const levelset::Air3d game;
   const auto h = danger::sampled<Real>(
@@ -103,7 +103,7 @@ Result<json> air3d_reference(const fs::path& root, const AirGrid& size) {
 
 template <class Real>
 std::optional<Error> bench_one_air3d(const AirGrid& size, const json& reference, int repeats,
-                                     Clock& clock, json& figures) {
+                                     const Clock& clock, json& figures) {
   const std::string name = fmt::format("{}x{}x{}", size.x, size.y, size.heading);
   const std::string before = "reach.air3d_" + name + ".";
   const std::string after = sizeof(Real) == sizeof(double) ? ".double" : "";
@@ -140,7 +140,7 @@ std::optional<Error> bench_one_air3d(const AirGrid& size, const json& reference,
 }
 
 std::optional<Error> bench_air3d_on(const AirGrid& size, int repeats, const fs::path& root,
-                                    Clock& clock, json& figures) {
+                                    const Clock& clock, json& figures) {
   const auto reference = air3d_reference(root, size);
   if (!reference.has_value()) {
     return reference.error();
@@ -171,7 +171,7 @@ void forget_peak() {
 
 /// Bytes per second that all threads move together: a = b + s c on arrays that no cache holds, two
 /// read and one written (as STREAM counts them); the best of a few runs.
-double memory_speed(int threads, Clock& clock) {
+double memory_speed(int threads, const Clock& clock) {
   constexpr std::size_t size = std::size_t{1} << 25;  // 128 MiB each
   constexpr std::size_t parts = 64;
   std::vector<float> a(size, 0.0F), b(size, 1.0F), c(size, 2.0F);
@@ -219,7 +219,7 @@ Result<danger::AvoidanceCase> parked_car_with_more_points(const fs::path& root) 
 }
 
 /// @return  the solution
-Result<danger::Solution> bench_avoid4d(const danger::AvoidanceCase& parked, Clock& clock,
+Result<danger::Solution> bench_avoid4d(const danger::AvoidanceCase& parked, const Clock& clock,
                                        json& figures) {
   const levelset::Problem problem = levelset::avoidance_problem(parked);
   const levelset::Scheme scheme{
@@ -262,7 +262,7 @@ Result<danger::Solution> bench_avoid4d(const danger::AvoidanceCase& parked, Cloc
   return solved;
 }
 
-void bench_roofline(Clock& clock, json& figures) {
+void bench_roofline(const Clock& clock, json& figures) {
   note_progress("the memory's speed");
   const double speed = memory_speed(usual_threads(), clock);
   const double seconds = 1e-9 * figures.at("reach.avoid4d.ns_per_point_stage").get<double>();
@@ -275,7 +275,7 @@ void bench_roofline(Clock& clock, json& figures) {
 
 /// Percentiles of one call [us], each the mean of a few: the clock itself takes a while.
 template <class Call>
-void bench_calls(const std::string& name, const Call& call, Clock& clock, json& figures,
+void bench_calls(const std::string& name, const Call& call, const Clock& clock, json& figures,
                  std::size_t num_samples = 20'000) {
   constexpr int calls_per_sample = 16;
   std::vector<double> times;
@@ -298,7 +298,7 @@ void bench_calls(const std::string& name, const Call& call, Clock& clock, json& 
 /// Every call somewhere else: what the memory takes is in it.
 constexpr std::size_t num_look_ups = std::size_t{1} << 16;
 
-void bench_look_up(const danger::Solution& solved, Clock& clock, json& figures) {
+void bench_look_up(const danger::Solution& solved, const Clock& clock, json& figures) {
   note_progress("look-ups");
   const danger::ValueTable table(solved.grid, snapshot(solved, 0), solved.error);
   std::mt19937 rng(1);
@@ -342,7 +342,7 @@ Result<std::vector<danger::DangerTable>> two_tables(const danger::Avoidance& lim
   return tables;
 }
 
-std::optional<Error> bench_risk(const manoeuvre::Car& car, Clock& clock, json& figures) {
+std::optional<Error> bench_risk(const manoeuvre::Car& car, const Clock& clock, json& figures) {
   const world::Footprint ego = manoeuvre::footprint(car);
   const world::Footprint other{.length = 4.5, .width = 1.8};
   const danger::Avoidance limits = danger::avoidance_of(car, dry_grip);
@@ -383,13 +383,13 @@ std::optional<Error> bench_risk(const manoeuvre::Car& car, Clock& clock, json& f
 
 }  // namespace
 
-std::optional<Error> bench_air3d(const fs::path& root, Clock& clock, json& figures) {
+std::optional<Error> bench_air3d(const fs::path& root, const Clock& clock, json& figures) {
   constexpr int repeats = 2;
   return bench_air3d_on(coarse_air, repeats, root, clock, figures);
 }
 
-std::optional<Error> bench_reach(const fs::path& root, const manoeuvre::Car& car, Clock& clock,
-                                 json& figures) {
+std::optional<Error> bench_reach(const fs::path& root, const manoeuvre::Car& car,
+                                 const Clock& clock, json& figures) {
   const auto parked = parked_car_with_more_points(root);
   if (!parked.has_value()) {
     return parked.error();
