@@ -105,7 +105,6 @@ template <class Real>
 std::optional<Error> bench_one_air3d(const AirGrid& size, const json& reference, int repeats,
                                      const Clock& clock, json& figures) {
   const std::string name = fmt::format("{}x{}x{}", size.x, size.y, size.heading);
-  const std::string before = "reach.air3d_" + name + ".";
   const std::string after = sizeof(Real) == sizeof(double) ? ".double" : "";
   const danger::Grid grid = levelset::air3d_grid(size.x, size.y, size.heading);
   for (const int threads : {1, usual_threads()}) {
@@ -120,19 +119,21 @@ std::optional<Error> bench_one_air3d(const AirGrid& size, const json& reference,
       const std::vector<Real>& values = run.value().values;
       seconds = std::min(seconds, run.value().seconds);
       const double work = static_cast<double>(values.size()) * run.value().steps * air3d_stages;
+      const auto figure = [&](const char* what, const std::string& by) -> json& {
+        return figures[fmt::format("reach.air3d_{}.{}{}", name, what, by)];
+      };
       const std::string by = fmt::format(".t{}{}", threads, after);
-      figures[before + "seconds" + by] = seconds;
-      figures[before + "ns_per_point_stage" + by] = 1e9 * seconds / work;
+      figure("seconds", by) = seconds;
+      figure("ns_per_point_stage", by) = 1e9 * seconds / work;
       const auto error = [&](double came, const char* key) {
         const double wanted = reference.at(key).get<double>();
         return std::abs(came - wanted) / std::abs(wanted);
       };
       const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-      figures[before + "volume_error" + after] =
+      figure("volume_error", after) =
           error(levelset::tube_volume<Real>(grid, values), "tube_volume_m2_rad");
-      figures[before + "least_value_error" + after] =
-          error(static_cast<double>(*least), "least_value_m");
-      figures[before + "greatest_value_error" + after] =
+      figure("least_value_error", after) = error(static_cast<double>(*least), "least_value_m");
+      figure("greatest_value_error", after) =
           error(static_cast<double>(*greatest), "greatest_value_m");
     }
   }
