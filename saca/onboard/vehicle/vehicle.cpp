@@ -255,6 +255,9 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
   expects(dt > 0.0 && dt <= longest_step(car), "dt in (0, longest_step(car)] s");
   expects(in_range(grip), "grip in (0, 1.2]");
   expects(is_finite(car, state, command), "car, state and command are finite");
+  expects(std::all_of(command.brake_torque.begin(), command.brake_torque.end(),
+                      [](double torque) { return torque >= 0.0; }),
+          "brake_torque >= 0");
 
   VehicleState next = state;
   Command limited = command;
@@ -262,7 +265,6 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
   limited.motor_torque = std::clamp(command.motor_torque, -car.motor_limit, car.motor_limit);
   limited.brake_torque = after_dead_time(car, command.brake_torque, next.brake_line);
   for (double& torque : limited.brake_torque) {
-    expects(torque >= 0.0, "brake_torque >= 0");
     torque = std::min(torque, car.brake_limit);
   }
   const bool holds = equations::is_held(car, state_vector_of(next));
