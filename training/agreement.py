@@ -1,12 +1,13 @@
 """Whether the merged and rewritten weights decide as PyTorch does with the adapter.
 
-usage: agreement.py REPLIES SYSTEM BASE ADAPTER [--count N] [--json]
+usage: agreement.py REPLIES SYSTEM BASE ADAPTER [--also REPLIES ...] [--count N] [--json]
   REPLIES  of `saca cases eval --output`: prompts, what was written, and what was answered before and after it
   SYSTEM   system.txt of the sets
   BASE     GGUF file that the adapter was trained with
   ADAPTER  what training kept (kept.pt) or wrote (adapter.gguf)
-PyTorch is given the same prompts and the same written text: so each answer is compared by itself. Exit code 1: in more than
-two of a hundred another answer is the likeliest.
+PyTorch is given the same prompts and the same written text: so each answer is compared by itself. Several files (--also:
+of the same prompts, by weights in another format) take little longer than one. Exit code 1: in more than two of a hundred
+another answer is the likeliest.
 """
 import argparse
 import json
@@ -14,6 +15,7 @@ import pathlib
 import sys
 
 import torch
+import transformers
 
 import examples
 import fine_tune
@@ -43,11 +45,25 @@ def asked_tokens(reply, kind, tokens_of):
     return tokens + ([] if asks_itself else tokens_of(examples.ANSWER_STEM)) + tokens_of(" ")
 
 
-def probabilities(model, system, tokens, digits):
-    with torch.no_grad():
-        ids = torch.tensor([system + tokens])
-        logits = model.get_base_model()(input_ids=ids, logits_to_keep=1).logits[0, -1, digits]
-    return torch.softmax(logits, 0).tolist()
+class Reader:
+    """Reads texts one after the other, and what a text shares with the one before only once."""
+
+    def __init__(self, model):
+        self.causal = model.get_base_model()
+        self.cache = transformers.DynamicCache()
+        self.read = []
+
+    def probabilities(self, tokens, choices):
+        """Of these tokens to come next, among themselves."""
+        shared = 0
+        while shared < min(len(self.read), len(tokens) - 1) and self.read[shared] == tokens[shared]:
+            shared += 1
+        if shared < len(self.read):
+            self.cache.crop(shared - len(self.read))  # so many from the end
+        with torch.no_grad():
+            told = self.causal(input_ids=torch.tensor([tokens[shared:]]), past_key_values=self.cache, use_cache=True, logits_to_keep=1)
+        self.read = tokens
+        return torch.softmax(told.logits[0, -1, choices], 0).tolist()
 
 
 def compare(pairs):
@@ -67,6 +83,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     for name in ("replies", "system", "base", "adapter"):
         parser.add_argument(name, type=pathlib.Path)
+    parser.add_argument("--also", type=pathlib.Path, action="append", default=[], metavar="REPLIES")
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--rank", type=int, default=16)
     parser.add_argument("--alpha", type=int, default=32)
@@ -74,9 +91,13 @@ def main(arguments):
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args(arguments)
     try:
-        replies = read_replies(given.replies)[:given.count]
-        if not replies:
-            raise Problem(f"{given.replies}: want replies with answers, got none")
+        paths = [given.replies, *given.also]
+        files = [read_replies(path)[:given.count] for path in paths]
+        for path, replies in zip(paths, files):
+            if not replies:
+                raise Problem(f"{path}: want replies with answers, got none")
+            if [one["example"]["prompt"] for one in replies] != [one["example"]["prompt"] for one in files[0]]:
+                raise Problem(f"{path}: want replies to the prompts of {paths[0]}, got others")
         tokenizer, base = fine_tune.load(given.base)
         tokens_of = fine_tune.tokeniser(tokenizer)
         given.seed = 1
@@ -87,18 +108,23 @@ def main(arguments):
         print(f"agreement: error: {error}", file=sys.stderr)
         return 3
     digits = [tokens_of(str(k))[0] for k in range(8)]
-    told = {}
-    for kind in KINDS:
-        pairs = [(sharpened(one[kind], given.temperature), probabilities(model, system, asked_tokens(one, kind, tokens_of), digits))
-                 for one in replies]
-        told[kind] = compare(pairs)
-    disagree = any(one["same"] < 0.98 * one["compared"] for one in told.values())
+    reader = Reader(model)
+    pairs = [{kind: [] for kind in KINDS} for _ in files]
+    for same_prompt in zip(*files):
+        for reply, of_file in zip(same_prompt, pairs):
+            for kind in KINDS:
+                theirs = sharpened(reply[kind], given.temperature)
+                of_file[kind].append((theirs, reader.probabilities(system + asked_tokens(reply, kind, tokens_of), digits)))
+    told = [{"replies": str(path), **{kind: compare(of_file[kind]) for kind in KINDS}} for path, of_file in zip(paths, pairs)]
+    disagree = any(one[kind]["same"] < 0.98 * one[kind]["compared"] for one in told for kind in KINDS)
     if given.json:
-        print(json.dumps({"schema": "saca.agreement/1", **told}))
+        print(json.dumps({"schema": "saca.agreement/2", "files": told}))
         return int(disagree)
-    for kind, title in zip(KINDS, ("at once", "after reasoning")):
-        one = told[kind]
-        print(f"{title}: {one['same']} of {one['compared']} the same, probabilities differ by at most {one['largest_shift']:.3f}")
+    for one in told:
+        for kind, title in zip(KINDS, ("at once", "after reasoning")):
+            found = one[kind]
+            print(f"{one['replies']}: {title}: {found['same']} of {found['compared']} the same, "
+                  f"probabilities differ by at most {found['largest_shift']:.3f}")
     return int(disagree)
 
 
