@@ -1,4 +1,4 @@
-"""What README.md says is so: the figures of its emergency are those of a run, its commands are there."""
+"""What README.md and the guide say is so: the figures of its emergency are those of a run, their commands are there."""
 import json
 import os
 import pathlib
@@ -11,6 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SACA_PROGRAM", ROOT / "build/release/saca")
 SUITES = json.loads((ROOT / "docs/suites.json").read_text())
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+GUIDE = (ROOT / "docs/guide.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -55,9 +56,10 @@ def test_the_figures_of_the_suites_are_those_of_their_page():
     assert "worse than braking in one of twenty" in README and 0.04 < large["suite.balanced.saca.materially_worse_than_aeb"] < 0.06
 
 
-def test_its_commands_are_there():
-    lines = re.findall(r"build/release/saca ([^#&\n]+)", README)
-    assert len(lines) > 25
+def test_their_commands_are_there():
+    lines = [re.findall(r"build/release/saca ([^#&\n]+)", text) for text in (README, GUIDE)]
+    assert len(lines[0]) == 5 and len(lines[1]) > 25
+    lines = lines[0] + lines[1]
     for line in lines:
         words = line.split()
         options = [word for word in words if word.startswith("--")]
