@@ -89,7 +89,12 @@ int package(const AtlasOptions& options, const std::string& package_file) {
     error.message += " (`saca atlas build --car " + options.car + "` makes it)";
     return refused(error);
   }
-  const std::string name = inputs.value().car_name.substr(0, reflex::longest_package_name);
+  const std::string& name = inputs.value().car_name;
+  if (name.size() > reflex::longest_package_name) {
+    return refused(Error{Error::Code::out_of_range,
+                         fmt::format("{}: want a car's name of at most {} bytes, got {}", name,
+                                     reflex::longest_package_name, name.size())});
+  }
   const fs::path output =
       package_file.empty() ? fs::path(name + ".vehicle") : fs::path(package_file);
   const std::string bytes =
