@@ -6,8 +6,9 @@
 #   make model   the local language model: libraries, weights, the choice for this processor
 #   make lint    clang-tidy over everything; `make test` looks at what has changed
 #   make bench   measures every figure of docs/results.md anew and makes the page; about a quarter of an hour
+#   make aarch64 what drives, and its tests, built for 64-bit Arm and run under qemu; half an hour
 #   make soak    long runs: kills, deadlines, first contacts, futures, evasions
-.PHONY: run test build model bench lint setup soak
+.PHONY: run test build model bench lint setup soak aarch64
 
 SCENARIO ?= 100car_8456
 
@@ -32,6 +33,9 @@ test: setup model
 
 lint: setup
 	@tools/lint/run.sh
+
+aarch64: build
+	@tools/aarch64.sh all
 
 measuring := rollout_bench sim_bench intent_bench memory_bench model_host_process_bench
 # Only the programs that measure are built, not the tests.

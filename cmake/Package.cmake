@@ -2,7 +2,11 @@
 # and its data and scenarios in share/saca.
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/saca)
-foreach(component reflex runtime lab)
+set(saca_components reflex)
+if(SACA_BUILD STREQUAL "lab")
+  list(APPEND saca_components runtime lab)
+endif()
+foreach(component IN LISTS saca_components)
   install(EXPORT saca_${component}_targets NAMESPACE saca:: DESTINATION ${package})
 endforeach()
 set(SACA_DATA_FOLDER ${CMAKE_INSTALL_DATADIR}/saca)

@@ -153,7 +153,7 @@ function(saca_module name)
   endif()
 
   file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)
-  if(benches)
+  if(benches AND NOT CMAKE_CROSSCOMPILING)
     add_executable(${name}_bench ${benches})
     target_link_libraries(${name}_bench PRIVATE saca::${name} ${test_libraries} saca_flags benchmark::benchmark_main)
     add_test(NAME ${name}.bench COMMAND ${name}_bench --benchmark_min_time=0.001

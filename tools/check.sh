@@ -42,6 +42,7 @@ step "build: thread sanitiser" build tsan core_test encounter_test language_mode
 step "tests: thread sanitiser" tools/ctest_again.py tsan --parallel "$at_once"
 step "lint: what has changed" tools/lint/run.sh --changed
 step "package: installed, found and used by another project" tools/check_package.sh
+step "aarch64: what drives, beside this processor" tools/aarch64.sh
 
 # Of what is skipped each test says why.
 grep -hA 1 ': Skipped$' build/{release,asan-quick,tsan}/Testing/Temporary/LastTest.log | grep -v '^--$' | sed 's|^.*/\([^/]*: Skipped\)|\1|' | paste - - | sort -u || true

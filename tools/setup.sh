@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building and testing need; silent when all are there.
-# usage: tools/setup.sh [train]    train: also what saca-train needs, libtorch (120 MB) and
-#                                  OpenBLAS: with the reference BLAS a training takes several times as long
+# usage: tools/setup.sh [train|aarch64]    train: also what saca-train needs, libtorch (120 MB) and
+#                                          OpenBLAS: with the reference BLAS a training takes several times as long
+#                                          aarch64: also a compiler for 64-bit Arm, and qemu
 set -euo pipefail
 
 packages=(
@@ -13,7 +14,15 @@ packages=(
   python3 python3-venv python3-pytest python3-jsonschema
   chromium
 )
-[ "${1:-}" != train ] || packages+=(libtorch-dev libopenblas0-pthread)
+case ${1:-} in
+  '') ;;
+  train) packages+=(libtorch-dev libopenblas0-pthread) ;;
+  aarch64) packages+=(g++-aarch64-linux-gnu qemu-user googletest) ;;
+  *)
+    echo "setup: error: want train, aarch64 or nothing, got $1" >&2
+    exit 2
+    ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

@@ -19,7 +19,7 @@
 #include "apps/saca/resumable.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/version.h"
-#include "saca/base/config/json_lines.h"
+#include "saca/base/formats/json_lines.h"
 #include "saca/lab/eval/reply_score.h"
 
 namespace saca::app {
@@ -147,7 +147,7 @@ void print(const ReplyScore& score, const CasesEvalOptions& options, const std::
 
 std::optional<Error> write_replies(const std::string& path,
                                    const std::vector<ExampleReply>& replies) {
-  std::string lines = config::first_json_line(replies_schema, "replies", replies.size());
+  std::string lines = formats::first_json_line(replies_schema, "replies", replies.size());
   for (const ExampleReply& one : replies) {
     lines += eval::to_json(one).dump() + '\n';
   }

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "apps/saca/cases_making.h"
-#include "saca/base/config/compressed_text.h"
 #include "saca/base/core/fnv.h"
+#include "saca/base/formats/compressed_text.h"
 #include "saca/lab/eval/suite_source.h"
 #include "saca/lab/families/splits.h"
 #include "saca/thinking/arbitration/forecaster.h"
@@ -56,7 +56,7 @@ std::optional<eval::ToldCase> ToldCases::in(const world::Scene& scene) const {
 
 Result<ExampleSource> open_examples(const ExampleOptions& options) {
   ExampleSource all;
-  const auto text = config::read_compressed(options.file, many_bytes);
+  const auto text = formats::read_compressed(options.file, many_bytes);
   if (!text.has_value()) {
     return text.error();
   }

@@ -15,8 +15,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/version.h"
-#include "saca/base/config/json_lines.h"
 #include "saca/base/core/parallel.h"
+#include "saca/base/formats/json_lines.h"
 #include "saca/lab/eval/reply_example.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/token_bound.h"
@@ -153,7 +153,7 @@ std::optional<Error> write_sets(const std::vector<ReplyExample>& examples,
       }
     }
     if (options.format == "local") {
-      lines.insert(0, config::first_json_line(examples_schema, "examples", count));
+      lines.insert(0, formats::first_json_line(examples_schema, "examples", count));
     }
     if (auto problem = write_output(folder / (std::string(name(set)) + ".jsonl"), lines)) {
       return problem;

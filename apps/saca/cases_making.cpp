@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "saca/base/config/json_reader.h"
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/fnv.h"
+#include "saca/base/formats/json_reader.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/lab/crash_records/facts.h"
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/eval/suite.h"
@@ -23,12 +23,12 @@ std::string case_row_line(const CaseRow& row) {
 }
 
 Result<CaseRow> case_row_from(const std::string& line) {
-  const auto parsed = config::parse_json(line);
+  const auto parsed = formats::parse_json(line);
   if (!parsed.has_value()) {
     return parsed.error();
   }
   std::optional<Error> problem;
-  config::JsonReader reader(parsed.value(), "", problem, "line");
+  formats::JsonReader reader(parsed.value(), "", problem, "line");
   CaseRow row{.family = reader.text("family")};
   row.end = reader.word("end", eval::crash_end_from, "how a search ended");
   row.problem = reader.text("problem");

@@ -13,8 +13,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/base/config/compressed_text.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/compressed_text.h"
 #include "saca/lab/scenario/chance.h"
 
 namespace saca::app {
@@ -53,7 +53,7 @@ int show_cases(const CasesShowOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  const auto text = config::read_compressed(options.file, many_bytes);
+  const auto text = formats::read_compressed(options.file, many_bytes);
   if (!text.has_value()) {
     return refused(text.error());
   }

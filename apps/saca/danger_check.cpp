@@ -11,13 +11,13 @@
 namespace saca::app {
 
 Result<learned_danger::Network> read_danger_network(const std::string& path) {
-  const auto tensors = config::read_tensor_file(path, many_bytes);
+  const auto tensors = formats::read_tensor_file(path, many_bytes);
   return tensors.has_value() ? learned_danger::Network::from(tensors.value(), path)
                              : Result<learned_danger::Network>(tensors.error());
 }
 
 Result<DangerWeights> read_danger_weights(const std::string& path) {
-  auto tensors = config::read_tensor_file(path, many_bytes);
+  auto tensors = formats::read_tensor_file(path, many_bytes);
   if (!tensors.has_value()) {
     return tensors.error();
   }

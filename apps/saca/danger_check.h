@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/base/world/footprint.h"
 #include "saca/lab/learned_danger/check.h"
 #include "saca/lab/learned_danger/network.h"
@@ -22,7 +22,7 @@ namespace saca::app {
 
 /// What a file of weights says, and the car that it is of.
 struct DangerWeights {
-  config::Tensors tensors;
+  formats::Tensors tensors;
   learned_danger::Network network;
   std::string car_name;
   Inputs inputs;

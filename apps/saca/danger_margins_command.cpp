@@ -17,10 +17,10 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/learned_danger/margins.h"
 
 namespace saca::app {
@@ -166,7 +166,7 @@ int fit_margins(const MarginOptions& options) {
   }
   learned_danger::Margins(metres).add_to(weights.tensors.words);
   weights.tensors.words["margin.situations"] = std::to_string(count.situations);
-  if (const auto problem = write_file(output, config::tensor_bytes(weights.tensors))) {
+  if (const auto problem = write_file(output, formats::tensor_bytes(weights.tensors))) {
     return refused(*problem);
   }
   fs::remove(state);

@@ -15,7 +15,7 @@
 #include "saca/base/core/units.h"
 #include "saca/lab/prepare/car_file.h"
 #include "saca/lab/report/drive_json.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_page.h"
 #include "saca/onboard/manoeuvre/drive.h"
 
 namespace saca::app {

@@ -6,7 +6,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
-#include "saca/lab/report/explanation.h"
+#include "saca/lab/report/record_in_words.h"
 
 namespace saca::app {
 namespace {

@@ -15,11 +15,11 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/report/intention_chart.h"
-#include "saca/lab/training/baselines.h"
 #include "saca/lab/training/calibration.h"
 #include "saca/lab/training/displacement.h"
 #include "saca/lab/training/evaluation.h"
 #include "saca/lab/training/forecast_file.h"
+#include "saca/lab/training/intention_baselines.h"
 #include "saca/lab/training/predict.h"
 #include "saca/lab/training/sequence_file.h"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/saca/places.h"
-#include "saca/base/config/json_reader.h"
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/json_reader.h"
+#include "saca/base/formats/json_text.h"
 
 namespace saca::app {
 
@@ -34,12 +34,12 @@ template <class Item>
 /// @param read  an item from its document
 template <class Item, class Read>
 [[nodiscard]] Result<ItemsRow<Item>> items_row(const std::string& line, const Read& read) {
-  const auto parsed = config::parse_json(line);
+  const auto parsed = formats::parse_json(line);
   if (!parsed.has_value()) {
     return parsed.error();
   }
   std::optional<Error> problem;
-  config::JsonReader reader(parsed.value(), "", problem, "line");
+  formats::JsonReader reader(parsed.value(), "", problem, "line");
   ItemsRow<Item> row{.items = {}, .problem = reader.text("problem")};
   const nlohmann::json* const items = reader.list("items");
   reader.refuse_others();

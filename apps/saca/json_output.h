@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/saca/printing.h"
-#include "saca/base/config/short_numbers.h"
+#include "saca/base/formats/short_numbers.h"
 
 namespace saca::app {
 
@@ -14,7 +14,7 @@ namespace saca::app {
 /// @tparam Json  nlohmann::json, or ordered_json
 template <class Json>
 [[nodiscard]] std::string json_text(Json document) {
-  return config::with_short_numbers(std::move(document))
+  return formats::with_short_numbers(std::move(document))
       .dump(1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -21,10 +21,10 @@
 #include "apps/saca/shipped_cases.h"
 #include "apps/saca/suite_thinking.h"
 #include "apps/saca/version.h"
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/journal.h"
 #include "saca/base/core/parallel.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/lab/eval/curriculum.h"
 #include "saca/thinking/memory/case_json.h"
 
@@ -117,7 +117,7 @@ std::string line_of(const Episodes& episodes) {
 
 /// @param numbers  of the encounter of each seed
 Result<Episodes> episodes_from(const std::string& line, const std::vector<std::uint64_t>& numbers) {
-  const auto read = config::parse_json(line);
+  const auto read = formats::parse_json(line);
   if (!read.has_value()) {
     return read.error();
   }

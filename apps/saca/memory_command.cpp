@@ -16,8 +16,8 @@
 #include "apps/saca/memory_picture.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/base/config/compressed_text.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/compressed_text.h"
 #include "saca/thinking/memory/case_json.h"
 #include "saca/thinking/memory/scene_json.h"
 #include "saca/thinking/memory/store.h"
@@ -252,7 +252,7 @@ int verify_bank(const MemoryOptions& options) {
 }  // namespace
 
 Result<std::vector<memory::Case>> read_cases(const std::string& file) {
-  const auto text = config::read_compressed(file, many_bytes);
+  const auto text = formats::read_compressed(file, many_bytes);
   if (!text.has_value()) {
     return text.error();
   }

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "apps/saca/settings.h"
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/printable.h"
 #include "saca/base/core/suggestion.h"
+#include "saca/base/formats/json_text.h"
 
 namespace saca::app {
 
@@ -42,7 +42,7 @@ ModelChoice find_model_choice(const Places& places) {
   if (!text.has_value()) {
     return {};
   }
-  const auto parsed = config::parse_json(text.value());
+  const auto parsed = formats::parse_json(text.value());
   if (!parsed.has_value() || !parsed.value().is_object()) {
     return {};
   }

@@ -16,10 +16,10 @@
 
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/core/percentile.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/lab/levelset/own_systems.h"
 #include "saca/lab/levelset/solve.h"
 #include "saca/lab/levelset/solver.h"
@@ -87,7 +87,7 @@ Result<json> air3d_reference(const fs::path& root, const AirGrid& size) {
   if (!text.has_value()) {
     return text.error();
   }
-  const auto read = config::parse_json(text.value());
+  const auto read = formats::parse_json(text.value());
   const json all = read.has_value() ? read.value() : json();
   const json points{size.x, size.y, size.heading};
   for (const json& one : all.is_object() ? all.value("solutions", json::array()) : json()) {

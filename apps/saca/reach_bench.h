@@ -15,8 +15,8 @@ namespace saca::app {
 /// threads), volume_error, least_value_error and greatest_value_error (share of the reference's);
 /// each with .double where it is in doubles.
 /// @param root  holds data/
-[[nodiscard]] std::optional<Error> bench_air3d(const std::filesystem::path& root, Clock& clock,
-                                               nlohmann::json& figures);
+[[nodiscard]] std::optional<Error> bench_air3d(const std::filesystem::path& root,
+                                               const Clock& clock, nlohmann::json& figures);
 
 /// All of `saca bench reach`: the above on the fine grid too; a parked car in four dimensions,
 /// as the tables of `saca run` are solved (reach.avoid4d.); look-ups of a value and of a danger
@@ -24,7 +24,7 @@ namespace saca::app {
 /// memory's speed allows (reach.roofline_share: 1 is as fast as numbers can be moved). What it is
 /// at is told on the error stream.
 [[nodiscard]] std::optional<Error> bench_reach(const std::filesystem::path& root,
-                                               const manoeuvre::Car& car, Clock& clock,
+                                               const manoeuvre::Car& car, const Clock& clock,
                                                nlohmann::json& figures);
 
 }  // namespace saca::app

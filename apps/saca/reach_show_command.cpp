@@ -17,7 +17,7 @@
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/vec2.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_page.h"
 #include "saca/lab/report/value_json.h"
 #include "saca/lab/report/value_map.h"
 #include "saca/lab/report/value_png.h"

@@ -6,7 +6,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_page.h"
 
 namespace saca::app {
 namespace {

@@ -28,8 +28,8 @@
 #include "saca/lab/encounter/provenance.h"
 #include "saca/lab/encounter/review.h"
 #include "saca/lab/encounter/trace.h"
-#include "saca/lab/report/explanation.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_in_words.h"
+#include "saca/lab/report/record_page.h"
 #include "saca/onboard/atlas/atlas_file.h"
 #include "saca/thinking/memory/store.h"
 

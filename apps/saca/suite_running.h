@@ -14,7 +14,7 @@
 #include "saca/lab/eval/imitator.h"
 #include "saca/lab/eval/suite.h"
 #include "saca/onboard/atlas/atlas.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 
 namespace saca::app {
 

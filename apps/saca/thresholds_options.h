@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 
 namespace saca::app {
 

@@ -11,11 +11,11 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/printable.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/lab/encounter/provenance.h"
-#include "saca/lab/report/explanation.h"
+#include "saca/lab/report/record_in_words.h"
 
 namespace saca::app {
 namespace {
@@ -102,7 +102,7 @@ int verify(const VerifyOptions& options) {
   if (const auto told = report::explanation(text.value(), options.record); !told.has_value()) {
     return refused(told.error());  // no record, or not a whole one
   }
-  const json record = config::parse_json(text.value()).value();
+  const json record = formats::parse_json(text.value()).value();
   const auto found = record.find("made");
   if (found == record.end() || found->is_null()) {
     return malformed("made: want who made the record by what, got none: it is older than that");

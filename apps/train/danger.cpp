@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/learned_danger/experience.h"
 #include "saca/lab/learned_danger/learned.h"
 #include "saca/lab/learned_danger/network.h"
@@ -131,7 +131,7 @@ class Curve {
 class Trainings {
  public:
   /// @param earlier  weights that this is learnt on top of, if any
-  Trainings(const Options& options, const Data& data, const config::Tensors& earlier)
+  Trainings(const Options& options, const Data& data, const formats::Tensors& earlier)
       : options_(options), data_(data), earlier_(earlier) {}
 
   Result<network_training::DangerNets> singles() {
@@ -143,7 +143,7 @@ class Trainings {
     return trained(data_.pairs, &singles, plan, pairs_state());
   }
   /// What is shipped of networks.
-  void add_to(config::Tensors& tensors, const network_training::DangerNets& nets,
+  void add_to(formats::Tensors& tensors, const network_training::DangerNets& nets,
               const std::string& prefix) const {
     if (options_.values_of.empty()) {
       nets->add_to(tensors, prefix);
@@ -177,18 +177,18 @@ class Trainings {
 
   const Options& options_;
   const Data& data_;
-  const config::Tensors& earlier_;
+  const formats::Tensors& earlier_;
   Curve curve_;
 };
 
 /// The weights that are learnt on top of; none where there are no such.
-Result<config::Tensors> earlier_weights(const Options& options, const Data& data) {
+Result<formats::Tensors> earlier_weights(const Options& options, const Data& data) {
   const std::string& path = options.earlier();
   if (path.empty()) {
-    return config::Tensors{};
+    return formats::Tensors{};
   }
   constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-  auto tensors = config::read_tensor_file(path, most_bytes);
+  auto tensors = formats::read_tensor_file(path, most_bytes);
   if (!tensors.has_value()) {
     return tensors.error();
   }
@@ -224,7 +224,7 @@ int train_danger(const Options& options) {
   if (improves) {
     learned_danger::keep_held(data.singles, options.hold_looks);
   }
-  config::Tensors tensors = earlier.value();
+  formats::Tensors tensors = earlier.value();
   Trainings trainings(options, data, earlier.value());
   const auto singles = trainings.singles();
   if (!singles.has_value()) {
@@ -271,7 +271,7 @@ int train_danger(const Options& options) {
   }
   words["digest"] = fmt::format("{:016x}", network.value().digest());
   tensors.words = std::move(words);
-  for (const auto& [path, text] : {std::pair{options.output, config::tensor_bytes(tensors)},
+  for (const auto& [path, text] : {std::pair{options.output, formats::tensor_bytes(tensors)},
                                    std::pair{options.output + ".curve.csv", trainings.curve()}}) {
     if (const auto problem = write_file(path, text)) {
       return train_program::failed(program, *problem);

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/base/config/compressed_text.h"
 #include "saca/base/core/fnv.h"
+#include "saca/base/formats/compressed_text.h"
 #include "saca/lab/eval/transfer.h"
 #include "saca/lab/network_training/imitator_net.h"
 #include "saca/thinking/memory/case_json.h"
@@ -65,7 +65,7 @@ Right right_in(const eval::Imitator& imitator, const std::vector<memory::Case>& 
 }
 
 int train_imitator(const Options& options) {
-  const auto text = config::read_compressed(options.cases, many_bytes);
+  const auto text = formats::read_compressed(options.cases, many_bytes);
   if (!text.has_value()) {
     return train_program::failed(program, text.error());
   }
@@ -102,7 +102,7 @@ int train_imitator(const Options& options) {
   if (train_program::is_to_stop()) {
     return train_program::stopped(program);
   }
-  config::Tensors tensors = network.value()->tensors();
+  formats::Tensors tensors = network.value()->tensors();
   const auto imitator = eval::Imitator::from(tensors, options.output);
   if (!imitator.has_value()) {
     return train_program::failed(program, imitator.error());

@@ -97,7 +97,7 @@ std::string digest_of(const std::string& path) {
 }
 
 /// The tensors, with words on where they come from.
-config::Tensors described(const Options& options, config::Tensors tensors) {
+formats::Tensors described(const Options& options, formats::Tensors tensors) {
   tensors.words = {{"left_out", options.leave_out.empty() ? "nothing" : options.leave_out},
                    {"sequences", digest_of(options.sequences)},
                    {"seed", std::to_string(options.plan.seed)},
@@ -115,7 +115,7 @@ config::Tensors described(const Options& options, config::Tensors tensors) {
 /// A model's file.
 struct ModelFile {
   fs::path path;
-  config::Tensors tensors;
+  formats::Tensors tensors;
   std::string left_out;
 };
 
@@ -126,7 +126,7 @@ Result<std::vector<ModelFile>> read_model_files(const fs::path& folder) {
     if (entry.path().extension() != ".safetensors") {
       continue;
     }
-    auto tensors = config::read_tensor_file(entry.path(), many_bytes);
+    auto tensors = formats::read_tensor_file(entry.path(), many_bytes);
     if (!tensors.has_value()) {
       return tensors.error();
     }
@@ -191,7 +191,7 @@ int calibrate_models(const Options& options) {
     }
     network_training::set_calibrations(file.tensors,
                                        training::best_calibrations(sequences, of_them));
-    if (const auto problem = write_file(file.path, config::tensor_bytes(file.tensors))) {
+    if (const auto problem = write_file(file.path, formats::tensor_bytes(file.tensors))) {
       return train_program::failed(program, *problem);
     }
     fmt::print("{}: calibrated on {} sequences\n", file.path.filename().string(), sequences.size());
@@ -234,7 +234,7 @@ int train_model(const Options& options) {
     }
     networks.push_back(network.value());
   }
-  const config::Tensors tensors = described(options, network_training::model_tensors(networks));
+  const formats::Tensors tensors = described(options, network_training::model_tensors(networks));
   if (const auto problem = train_program::write_trained(options.output, tensors, curve)) {
     return train_program::failed(program, *problem);
   }

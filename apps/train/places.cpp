@@ -198,7 +198,7 @@ int train_places(const Options& options) {
   if (train_program::is_to_stop()) {
     return train_program::stopped(program);
   }
-  config::Tensors tensors = network.value()->tensors();
+  formats::Tensors tensors = network.value()->tensors();
   tensors.words = {{"left_out", options.leave_out.empty() ? "nothing" : options.leave_out},
                    {"seed", std::to_string(options.schedule.seed)},
                    {"epochs", std::to_string(options.schedule.epochs)},

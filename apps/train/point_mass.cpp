@@ -128,7 +128,7 @@ int train_point_mass(const Options& options) {
   fs::create_directories(folder, problem);
 
   Curve of_fitted("fitted iteration");
-  config::Tensors fitted_weights;
+  formats::Tensors fitted_weights;
   {
     const learned_danger::Outcomes outcomes = learned_danger::point_mass_outcomes(
         exact.problem, value, options.states, options.plan.seed);
@@ -165,12 +165,12 @@ int train_point_mass(const Options& options) {
   figures["from_data"]["seconds"] = of_offline.seconds();
   figures["from_data"]["transitions"] = experience.size();
   fmt::print("{}\n", figures["from_data"].dump());
-  config::Tensors weights;
+  formats::Tensors weights;
   nets.value()->add_to(weights, "");
   for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
-           {"fitted.safetensors", config::tensor_bytes(fitted_weights)},
+           {"fitted.safetensors", formats::tensor_bytes(fitted_weights)},
            {"fitted.curve.csv", of_fitted.text()},
-           {"from_data.safetensors", config::tensor_bytes(weights)},
+           {"from_data.safetensors", formats::tensor_bytes(weights)},
            {"from_data.curve.csv", of_offline.text()},
            {"figures.json", figures.dump(2) + "\n"}}) {
     if (const auto unwritable = write_file(folder / name, text)) {

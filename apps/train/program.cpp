@@ -43,9 +43,9 @@ bool show_epoch(const network_training::Epoch& now, int epochs) {
   return !is_to_stop();
 }
 
-std::optional<Error> write_trained(const std::string& output, const config::Tensors& weights,
+std::optional<Error> write_trained(const std::string& output, const formats::Tensors& weights,
                                    std::string_view curve) {
-  if (auto problem = write_file(output, config::tensor_bytes(weights))) {
+  if (auto problem = write_file(output, formats::tensor_bytes(weights))) {
     return problem;
   }
   return write_file(output + ".curve.csv", curve);

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/network_training/task.h"
 
 /// What all training programs share: how they begin, are stopped and end.
@@ -30,7 +30,7 @@ void begin(char** argv);
 
 /// Writes the weights, and beside them ("....curve.csv") the curve.
 [[nodiscard]] std::optional<Error> write_trained(const std::string& output,
-                                                 const config::Tensors& weights,
+                                                 const formats::Tensors& weights,
                                                  std::string_view curve);
 
 /// Says that it was stopped.

@@ -5,8 +5,6 @@
 namespace saca {
 namespace {
 
-constexpr double quiet_time = 2.0;  // [s] without threat or plan, after which an encounter is over
-
 const AvoiderSetup& complete(const AvoiderSetup& setup) {
   expects(setup.intent != nullptr && setup.planes.forecast.car != nullptr &&
               setup.planes.forecast.harm != nullptr && setup.planes.clock != nullptr,
@@ -19,6 +17,7 @@ const AvoiderSetup& complete(const AvoiderSetup& setup) {
 Avoider::Avoider(const AvoiderSetup& setup)
     : setup_(complete(setup)),
       observer_(*setup.intent),
+      encounter_(*setup.planes.forecast.car),
       events_(most_events),
       planes_(setup.planes,
               setup.thinking.value_or(runtime::Planes::Listener{
@@ -33,7 +32,7 @@ Answer Avoider::step(double now, Clock::Time at) {
   return answer(intake_.carry_on(now), at);
 }
 
-Answer Avoider::answer(const runtime::IntakeResult& taken, Clock::Time at) {
+Answer Avoider::answer(const reflex::IntakeResult& taken, Clock::Time at) {
   Answer answer{.plan = plan(), .degraded = taken.degraded};
   remark_on(taken);
   if (!taken.usable) {
@@ -45,26 +44,25 @@ Answer Avoider::answer(const runtime::IntakeResult& taken, Clock::Time at) {
     begin_anew(runtime::Reset::drive);
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
-  grip_ = scene.grip;
-  const reflex::Reflex reflex = planes_.step(scene, beliefs, at, finished_);
+  const reflex::Reflex reflex = planes_.step(scene, beliefs, at, finished());
   answer.threat = reflex.threat;
   answer.triggered = reflex.triggered;
   answer.switched = reflex.switched;
   answer.begins = reflex.triggered || reflex.switched.has_value();
-  if (answer.begins) {
-    begin(reflex.plan, scene);
-  }
+  const bool is_over = encounter_.look(scene, reflex);
   if (reflex.triggered) {
     events_.triggered(*planes_.decision(), scene.actors[reflex.threat->actor], reflex.threat->time);
   } else if (reflex.switched) {
     events_.switched(scene.time, *reflex.switched);
   }
-  look_for_the_end(scene, answer);
+  if (is_over) {
+    end_encounter();
+  }
   answer.plan = plan();
   return answer;
 }
 
-void Avoider::remark_on(const runtime::IntakeResult& taken) {
+void Avoider::remark_on(const reflex::IntakeResult& taken) {
   using runtime::Remark;
   const double time = intake_.scene().time;
   if (taken.new_drive && watches_) {
@@ -80,31 +78,6 @@ void Avoider::remark_on(const runtime::IntakeResult& taken) {
   }
 }
 
-void Avoider::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
-  finished_ = false;
-  if (plan.policy == manoeuvre::PolicyId::no_intervention) {
-    execution_.reset();  // the stack drives
-    return;
-  }
-  execution_.emplace(*setup_.planes.forecast.car, plan, scene);
-}
-
-void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) {
-  constexpr double rest = 0.1;  // [m/s]
-  if (finished_ && execution_ && norm(scene.ego.v_B) >= rest) {
-    execution_.reset();  // a lane has been recovered; who has come to rest is held
-  }
-  meets_somebody_ = meets_somebody_ || answer.threat || execution_;
-  if (!meets_somebody_ || answer.threat || (execution_ && !finished_)) {
-    quiet_.reset();
-    return;
-  }
-  quiet_ = quiet_.value_or(scene.time);
-  if (scene.time >= *quiet_ + quiet_time) {
-    end_encounter();
-  }
-}
-
 void Avoider::end_encounter() {
   begin_anew(runtime::Reset::encounter);
   ++num_encounters_;
@@ -112,26 +85,18 @@ void Avoider::end_encounter() {
 }
 
 void Avoider::stand_down() {
-  if (meets_somebody_) {
+  if (encounter_.meets_somebody()) {
     end_encounter();
   }
 }
 
 void Avoider::begin_anew(runtime::Reset forgotten) {
   planes_.begin_anew(forgotten);
-  execution_.reset();
-  quiet_.reset();
-  meets_somebody_ = false;
-  finished_ = false;
+  encounter_.begin_anew();
 }
 
 vehicle::Command Avoider::control(const vehicle::VehicleState& state, double dt) noexcept {
-  if (!execution_) {
-    return {};
-  }
-  const vehicle::Command command = execution_->control(state, grip_, dt);
-  finished_ = execution_->finished();
-  return command;
+  return encounter_.control(state, dt);
 }
 
 }  // namespace saca

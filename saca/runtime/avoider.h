@@ -6,12 +6,13 @@
 
 #include "saca/base/core/clock.h"
 #include "saca/base/world/scene.h"
-#include "saca/onboard/manoeuvre/execution.h"
+#include "saca/onboard/manoeuvre/plan.h"
+#include "saca/onboard/reflex/encounter.h"
+#include "saca/onboard/reflex/intake.h"
 #include "saca/onboard/reflex/reflex_plane.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/onboard/vehicle/vehicle.h"
 #include "saca/runtime/event_log.h"
-#include "saca/runtime/intake.h"
 #include "saca/runtime/planes.h"
 #include "saca/thinking/intent/model.h"
 #include "saca/thinking/intent/observer.h"
@@ -47,7 +48,7 @@ struct Answer {
 /// Watches all day: intentions from the first scene on; within T2 the forecaster and the thinking
 /// plane work; at T1 the decision, and supervision until the plan has reached its end or nobody is
 /// in the way. Then the stack drives again, and the next encounter finds nothing of this one.
-/// Whatever comes in, the answer is valid (runtime::Intake).
+/// Whatever comes in, the answer is valid (reflex::Intake).
 ///
 /// `step` and `control` belong to one thread; they wait for nothing and allocate nothing (in
 /// lockstep, where thinking is done in `step`, they do). At pace `real` two more threads
@@ -76,12 +77,10 @@ class Avoider {
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
 
   /// What `control` carries out: the plan of the last answer; nullopt: the stack drives.
-  [[nodiscard]] std::optional<manoeuvre::Plan> plan() const {
-    return execution_ ? std::optional(execution_->plan()) : std::nullopt;
-  }
+  [[nodiscard]] std::optional<manoeuvre::Plan> plan() const { return encounter_.plan(); }
   /// Whether what was begun last in this encounter has reached its safe end: at rest, which is
   /// held, or in a recovered lane, where the wheel is given back.
-  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] bool finished() const { return encounter_.finished(); }
 
   /// The oldest event that has not been asked for: what was decided, begun, thought and not seen,
   /// in words, for a log. nullopt: there is none now.
@@ -116,25 +115,19 @@ class Avoider {
   std::string finish() { return planes_.finish(); }
 
  private:
-  [[nodiscard]] Answer answer(const runtime::IntakeResult& taken, Clock::Time at);
-  void remark_on(const runtime::IntakeResult& taken);
-  void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
+  [[nodiscard]] Answer answer(const reflex::IntakeResult& taken, Clock::Time at);
+  void remark_on(const reflex::IntakeResult& taken);
   void begin_anew(runtime::Reset forgotten);
-  void look_for_the_end(const world::Scene& scene, const Answer& answer);
   void end_encounter();
 
   AvoiderSetup setup_;
-  runtime::Intake intake_;
+  reflex::Intake intake_;
   intent::Observer observer_;
+  reflex::Encounter encounter_;
   runtime::EventLog events_;
   runtime::Planes planes_;
-  std::optional<manoeuvre::Execution> execution_;
-  double grip_ = 0.9;                                         ///< as believed at the last look [-]
-  bool finished_ = false;                                     ///< the plan has reached its safe end
   runtime::Remark perception_ = runtime::Remark::seen_again;  ///< as last reported
-  bool watches_ = false;         ///< a scene has come that could be used
-  bool meets_somebody_ = false;  ///< somebody has threatened since the last encounter
-  std::optional<double> quiet_;  ///< since when nobody has threatened and nothing is under way [s]
+  bool watches_ = false;  ///< a scene has come that could be used
   std::size_t num_encounters_ = 0;
 };
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "saca/base/config/json_reader.h"
-#include "saca/base/config/json_text.h"
+#include "saca/base/formats/json_reader.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/runtime/tape_json.h"
 #include "saca/thinking/memory/scene_json.h"
@@ -16,7 +16,7 @@
 namespace saca::runtime {
 namespace {
 
-using config::JsonReader;
+using formats::JsonReader;
 using nlohmann::json;
 
 /// The value of an enumeration of `count` that `name` gives this name.
@@ -378,7 +378,7 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 }
 
 std::optional<Error> TapeReader::read_line(std::string_view line) {
-  const auto node = config::parse_json(line);
+  const auto node = formats::parse_json(line);
   if (!node.has_value()) {
     return error("want one JSON object of a tape (saca.tape/6), got " + shown(line));
   }

@@ -7,7 +7,7 @@
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/result.h"
 #include "saca/onboard/manoeuvre/plan.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/runtime/charged_model.h"
 #include "saca/runtime/planes.h"
 #include "saca/thinking/intent/model.h"

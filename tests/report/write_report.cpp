@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "saca/base/core/file.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_page.h"
 
 int main(int argc, char** argv) {
   const std::string_view kind = argc == 4 ? argv[1] : "";

@@ -1,4 +1,4 @@
-"""Files whose first 512 bytes tell format, size and check sum of the rest (saca/base/config/checksummed_file.h)."""
+"""Files whose first 512 bytes tell format, size and check sum of the rest (saca/base/formats/checksummed_file.h)."""
 import pathlib
 
 HEAD = 512

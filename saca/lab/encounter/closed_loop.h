@@ -14,8 +14,8 @@
 #include "saca/onboard/manoeuvre/car.h"
 #include "saca/onboard/manoeuvre/execution.h"
 #include "saca/onboard/manoeuvre/plan.h"
-#include "saca/onboard/reflex/threat.h"
 #include "saca/onboard/reflex/track_confirmation.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/runtime/avoider.h"
 #include "saca/thinking/intent/observer.h"
 

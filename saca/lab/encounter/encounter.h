@@ -18,7 +18,7 @@
 #include "saca/onboard/collision/harm.h"
 #include "saca/onboard/manoeuvre/car.h"
 #include "saca/onboard/reflex/reflex_plane.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/runtime/planes.h"
 #include "saca/runtime/tape_json.h"
 #include "saca/thinking/arbitration/event.h"

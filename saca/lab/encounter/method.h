@@ -8,7 +8,7 @@
 #include "saca/lab/encounter/closed_loop.h"
 #include "saca/lab/encounter/thinking_figures.h"
 #include "saca/onboard/manoeuvre/plan.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/intent/observer.h"
 
 namespace saca::encounter {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "saca/base/config/short_numbers.h"
 #include "saca/base/core/units.h"
+#include "saca/base/formats/short_numbers.h"
 #include "saca/lab/encounter/encounter.h"
 #include "saca/lab/encounter/provenance.h"
 #include "saca/lab/encounter/state_json.h"
@@ -422,7 +422,7 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
         {"first_answer_s", after_t2(record, arbitration::EventKind::first_answer)},
         {"answer_s", after_t2(record, arbitration::EventKind::answer)},
         {"deadline_misses", record.deadline_misses}}}};
-  out = config::with_short_numbers(std::move(out));
+  out = formats::with_short_numbers(std::move(out));
   if (provenance != nullptr) {
     out["made"] = made_json(setup, *provenance);
     out["made"]["content"] = content_digest(out);

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "saca/base/config/short_numbers.h"
 #include "saca/base/core/units.h"
+#include "saca/base/formats/short_numbers.h"
 #include "saca/lab/encounter/state_json.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
@@ -87,7 +87,7 @@ json trace_event_json(const arbitration::Event& event) {
 }
 
 std::string json_line(const json& object) {
-  return config::with_short_numbers(object).dump(-1, ' ', false, json::error_handler_t::replace) +
+  return formats::with_short_numbers(object).dump(-1, ' ', false, json::error_handler_t::replace) +
          '\n';
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "saca/lab/encounter/method.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 
 namespace saca::eval {
 

@@ -7,13 +7,13 @@
 #include <optional>
 #include <utility>
 
-#include "saca/base/config/json_reader.h"
+#include "saca/base/formats/json_reader.h"
 #include "saca/thinking/language_model/token_bound.h"
 
 namespace saca::eval {
 namespace {
 
-using config::JsonReader;
+using formats::JsonReader;
 using nlohmann::json;
 
 /// One message, read.

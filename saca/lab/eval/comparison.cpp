@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/rollout/describe.h"
 
 namespace saca::eval {

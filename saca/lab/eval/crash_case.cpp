@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "saca/base/config/json_lines.h"
-#include "saca/base/config/json_reader.h"
 #include "saca/base/core/names.h"
+#include "saca/base/formats/json_lines.h"
+#include "saca/base/formats/json_reader.h"
 #include "saca/lab/encounter/verdict_json.h"
 #include "saca/lab/families/family.h"
 #include "saca/thinking/memory/case_json.h"
@@ -17,7 +17,7 @@ namespace saca::eval {
 namespace {
 
 using nlohmann::json;
-using Reader = config::JsonReader;
+using Reader = formats::JsonReader;
 
 constexpr std::string_view line_schema = "saca.crash_case/1";
 constexpr std::string_view lines_schema = "saca.crash_cases/1";
@@ -288,7 +288,7 @@ Result<CrashCase> crash_case_from_json(const json& document) {
 }
 
 std::string crash_cases_text(std::span<const CrashCase> cases) {
-  std::string text = config::first_json_line(lines_schema, "cases", cases.size());
+  std::string text = formats::first_json_line(lines_schema, "cases", cases.size());
   for (const CrashCase& one : cases) {
     text += to_json(one).dump() + '\n';
   }
@@ -298,7 +298,7 @@ std::string crash_cases_text(std::span<const CrashCase> cases) {
 Result<std::vector<CrashCase>> crash_cases_from_text(std::string_view text,
                                                      const std::string& name) {
   std::vector<CrashCase> cases;
-  const auto problem = config::read_json_lines(
+  const auto problem = formats::read_json_lines(
       text, name, lines_schema, "cases", [&](const json& document) -> std::optional<std::string> {
         auto one = crash_case_from_json(document);
         if (!one.has_value()) {

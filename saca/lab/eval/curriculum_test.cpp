@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "saca/base/config/json_text.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/lab/eval/scenes_for_test.h"
 #include "saca/onboard/match/similarity.h"
 #include "saca/thinking/intent/shipped_model.h"
@@ -186,7 +186,7 @@ TEST_F(CurriculumTest, ALineComesBack) {
   EXPECT_EQ(back.value().refuted[0], std::nullopt);
   EXPECT_EQ(back.value().one->happened, episode.one->happened);
   for (const char* const spoilt : {"", "{", "[]", R"({"row": 1})", R"({"lie": false})"}) {
-    const auto read = config::parse_json(spoilt);
+    const auto read = formats::parse_json(spoilt);
     EXPECT_FALSE(read.has_value() && episode_from_json(read.value()).has_value()) << spoilt;
   }
 }

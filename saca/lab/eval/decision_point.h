@@ -7,7 +7,7 @@
 #include "saca/lab/scenario/chance.h"
 #include "saca/lab/scenario/scenario.h"
 #include "saca/onboard/manoeuvre/car.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 
 namespace saca::eval {
 

@@ -122,12 +122,12 @@ PolicyId mirrored(PolicyId policy) {
   return manoeuvre::policy_from(static_cast<int>(policy) + manoeuvre::side(policy)).value();
 }
 
-Result<Imitator> Imitator::from(const config::Tensors& tensors, std::string_view source) {
+Result<Imitator> Imitator::from(const formats::Tensors& tensors, std::string_view source) {
   Imitator imitator;
   for (std::size_t k = 0; k < imitator.layers_.size(); ++k) {
-    auto layer = config::take_layer(tensors, std::to_string(k),
-                                    k + 1 < imitator.layers_.size() ? width : num_policies,
-                                    k > 0 ? width : num_imitator_inputs, source);
+    auto layer = formats::take_layer(tensors, std::to_string(k),
+                                     k + 1 < imitator.layers_.size() ? width : num_policies,
+                                     k > 0 ? width : num_imitator_inputs, source);
     if (!layer.has_value()) {
       return layer.error();
     }
@@ -137,7 +137,7 @@ Result<Imitator> Imitator::from(const config::Tensors& tensors, std::string_view
 }
 
 Result<Imitator> Imitator::read(const std::filesystem::path& file) {
-  const auto tensors = config::read_tensor_file(file);
+  const auto tensors = formats::read_tensor_file(file);
   return tensors.has_value() ? from(tensors.value(), file.string()) : tensors.error();
 }
 
@@ -146,7 +146,7 @@ std::array<double, num_policies> Imitator::scores(const ImitatorInputs& inputs) 
       Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   Eigen::VectorXf x = Eigen::Map<const Eigen::VectorXf>(inputs.data(), num_imitator_inputs);
   for (std::size_t k = 0; k < layers_.size(); ++k) {
-    const config::Layer& layer = layers_[k];
+    const formats::Layer& layer = layers_[k];
     const auto rows = static_cast<Eigen::Index>(layer.rows);
     const Eigen::VectorXf y =
         Weights(layer.weight.data(), rows, static_cast<Eigen::Index>(layer.columns)) * x +
@@ -191,7 +191,7 @@ PolicyId Imitator::choice(const world::Scene& scene) const {
 
 std::uint64_t Imitator::digest() const {
   Fnv hash;
-  for (const config::Layer& layer : layers_) {
+  for (const formats::Layer& layer : layers_) {
     layer.add_to(hash);
   }
   return hash.value();

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/base/world/scene.h"
 #include "saca/onboard/manoeuvre/plan.h"
 
@@ -39,12 +39,12 @@ class Imitator {
 
   /// From the tensors of saca-train-imitator: `0.weight` (width x num_imitator_inputs), `0.bias`,
   /// `1.weight`, `1.bias`, `2.weight` (8 x width), `2.bias`.
-  /// @return  Error::Code::malformed, as config::take
-  [[nodiscard]] static Result<Imitator> from(const config::Tensors& tensors,
+  /// @return  Error::Code::malformed, as formats::take
+  [[nodiscard]] static Result<Imitator> from(const formats::Tensors& tensors,
                                              std::string_view source);
 
   /// Of a file.
-  /// @return  likewise, or as config::read_tensor_file
+  /// @return  likewise, or as formats::read_tensor_file
   [[nodiscard]] static Result<Imitator> read(const std::filesystem::path& file);
 
   /// How likely each policy was the best, by PolicyId; they sum to 1.
@@ -62,7 +62,7 @@ class Imitator {
   [[nodiscard]] std::array<double, manoeuvre::num_policies> scores(
       const ImitatorInputs& inputs) const;
 
-  std::array<config::Layer, 3> layers_;
+  std::array<formats::Layer, 3> layers_;
 };
 
 }  // namespace saca::eval

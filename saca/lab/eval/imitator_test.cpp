@@ -16,13 +16,13 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-config::Tensors some_tensors(std::uint64_t seed) {
+formats::Tensors some_tensors(std::uint64_t seed) {
   std::mt19937_64 rng(seed);
   std::normal_distribution<float> normal(0.0F, 0.3F);
-  config::Tensors all;
+  formats::Tensors all;
   const auto add = [&](const std::string& name, std::size_t rows, std::size_t columns) {
-    config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns)};
-    config::Tensor bias{{rows}, std::vector<float>(rows)};
+    formats::Tensor weight{{rows, columns}, std::vector<float>(rows * columns)};
+    formats::Tensor bias{{rows}, std::vector<float>(rows)};
     for (auto* const numbers : {&weight.values, &bias.values}) {
       std::generate(numbers->begin(), numbers->end(), [&] { return normal(rng); });
     }
@@ -141,7 +141,7 @@ TEST(Imitator, ChoosesInTheMirrorWhatIsTheMirrorImage) {
 
 // All weights 0: each policy is as likely, and the mildest is chosen.
 TEST(Imitator, OfEqualsTheMildestIsChosen) {
-  config::Tensors zero = some_tensors(1);
+  formats::Tensors zero = some_tensors(1);
   for (auto& [name, tensor] : zero.tensors) {
     std::fill(tensor.values.begin(), tensor.values.end(), 0.0F);
   }
@@ -151,7 +151,7 @@ TEST(Imitator, OfEqualsTheMildestIsChosen) {
 }
 
 TEST(Imitator, RefusesOtherTensors) {
-  config::Tensors wrong = some_tensors(1);
+  formats::Tensors wrong = some_tensors(1);
   wrong.tensors["1.bias"].shape = {3};
   wrong.tensors["1.bias"].values.resize(3);
   EXPECT_THAT(Imitator::from(wrong, "w.safetensors").error().message,

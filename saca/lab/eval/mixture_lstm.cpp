@@ -33,21 +33,21 @@ bool is_learnt_of(const Actor& actor) {
          norm(actor.v_W) >= intent::rest_speed;
 }
 
-Result<MixtureModel> MixtureModel::from(const config::Tensors& tensors, std::string_view source) {
+Result<MixtureModel> MixtureModel::from(const formats::Tensors& tensors, std::string_view source) {
   auto encoder = intent::Encoder::from(tensors, "", source);
   if (!encoder.has_value()) {
     return encoder.error();
   }
-  auto taken = config::take_layer(tensors, "output", outputs_per_side, encoded, source);
+  auto taken = formats::take_layer(tensors, "output", outputs_per_side, encoded, source);
   if (!taken.has_value()) {
     return taken.error();
   }
-  config::Layer output = std::move(taken).value();
+  formats::Layer output = std::move(taken).value();
   return MixtureModel{std::move(encoder).value(), std::move(output.weight), std::move(output.bias)};
 }
 
 Result<MixtureModel> MixtureModel::read(const std::filesystem::path& path) {
-  const auto tensors = config::read_tensor_file(path);
+  const auto tensors = formats::read_tensor_file(path);
   return tensors.has_value() ? from(tensors.value(), path.string())
                              : Result<MixtureModel>(tensors.error());
 }

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
 #include "saca/base/core/vec2.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/base/world/road.h"
 #include "saca/base/world/scene.h"
 #include "saca/lab/eval/likely_places.h"
@@ -58,8 +58,8 @@ struct MixtureModel {
   std::vector<float> bias;
 
   /// From the tensors of intent::Encoder, "output.weight" and "output.bias".
-  /// @return  Error::Code::malformed, as config::take
-  [[nodiscard]] static Result<MixtureModel> from(const config::Tensors& tensors,
+  /// @return  Error::Code::malformed, as formats::take
+  [[nodiscard]] static Result<MixtureModel> from(const formats::Tensors& tensors,
                                                  std::string_view source);
   /// @return  as read_file and from
   [[nodiscard]] static Result<MixtureModel> read(const std::filesystem::path& path);

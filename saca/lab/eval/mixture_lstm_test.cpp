@@ -16,8 +16,8 @@ namespace {
 using testing::HasSubstr;
 
 /// Random weights of the right shapes; `scale` 0: all outputs are 0.
-config::Tensors weights(float scale) {
-  config::Tensors tensors;
+formats::Tensors weights(float scale) {
+  formats::Tensors tensors;
   intent::add_random_network(tensors, "", 3);
   std::mt19937 random(4);
   std::normal_distribution<float> normal(0.0F, 0.1F);
@@ -90,7 +90,7 @@ TEST(MixtureModel, IsSymmetricInTheMirror) {
 }
 
 TEST(MixtureModel, OfOtherShapesIsRefused) {
-  config::Tensors tensors = weights(1.0F);
+  formats::Tensors tensors = weights(1.0F);
   tensors.tensors["output.bias"].shape = {2};
   tensors.tensors["output.bias"].values.resize(2);
   EXPECT_THAT(MixtureModel::from(tensors, "file").error().message,

@@ -3,9 +3,9 @@
 #include <random>
 #include <utility>
 
-#include "saca/base/config/json_reader.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/names.h"
+#include "saca/base/formats/json_reader.h"
 #include "saca/lab/eval/trigger_case.h"
 #include "saca/thinking/language_model/expert.h"
 #include "saca/thinking/language_model/expert_choice.h"
@@ -28,7 +28,7 @@ json harms_json(const memory::PolicyHarms& harms) {
   return list;
 }
 
-memory::PolicyHarms read_harms(config::JsonReader& reader, std::string_view key) {
+memory::PolicyHarms read_harms(formats::JsonReader& reader, std::string_view key) {
   memory::PolicyHarms harms;
   const json* const list = reader.list(key, harms.size());
   if (list == nullptr) {
@@ -42,7 +42,7 @@ memory::PolicyHarms read_harms(config::JsonReader& reader, std::string_view key)
     const json& value = (*list)[k];
     const bool is_harm = value.is_number() && value.get<double>() >= 0.0;
     if (!is_harm && !value.is_null()) {
-      reader.reject(key, "want harms >= 0 or null, got " + config::JsonReader::shown(value));
+      reader.reject(key, "want harms >= 0 or null, got " + formats::JsonReader::shown(value));
     } else if (is_harm) {
       harms[k] = value.get<double>();
     }
@@ -95,7 +95,7 @@ json to_json(const ReplyExample& example) {
 
 Result<ReplyExample> reply_example_from_json(const json& document) {
   std::optional<Error> problem;
-  config::JsonReader reader(document, "", problem, "example of a reply");
+  formats::JsonReader reader(document, "", problem, "example of a reply");
   ReplyExample example;
   reader.schema(example_schema);
   example.record = reader.text("record");
@@ -110,7 +110,7 @@ Result<ReplyExample> reply_example_from_json(const json& document) {
     for (const json& value : *list) {
       if (!value.is_number_unsigned() || value.get<std::size_t>() > last) {
         reader.reject("admissible",
-                      "want policies from 0 to 7, got " + config::JsonReader::shown(value));
+                      "want policies from 0 to 7, got " + formats::JsonReader::shown(value));
       } else {
         example.admissible.set(value.get<std::size_t>());
       }

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "saca/base/config/json_reader.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/json_reader.h"
 #include "saca/onboard/collision/ordering.h"
 #include "saca/thinking/language_model/conclusion.h"
 #include "saca/thinking/language_model/reply.h"
@@ -26,7 +26,7 @@ json probabilities_json(const std::optional<Probabilities>& answer) {
   return answer ? json(*answer) : json(nullptr);
 }
 
-std::optional<Probabilities> read_probabilities(config::JsonReader& reader, std::string_view key) {
+std::optional<Probabilities> read_probabilities(formats::JsonReader& reader, std::string_view key) {
   if (!reader.has_value(key)) {
     return std::nullopt;
   }
@@ -268,7 +268,7 @@ json to_json(const ExampleReply& reply) {
 
 Result<ExampleReply> example_reply_from_json(const json& document) {
   std::optional<Error> problem;
-  config::JsonReader reader(document, "", problem, "reply to an example");
+  formats::JsonReader reader(document, "", problem, "reply to an example");
   ExampleReply reply;
   reader.schema(reply_schema);
   const auto example = reply_example_from_json(reader.any("example"));

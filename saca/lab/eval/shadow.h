@@ -10,7 +10,7 @@
 #include "saca/lab/eval/shadow_judge.h"
 #include "saca/lab/scenario/scenario.h"
 #include "saca/onboard/manoeuvre/car.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/runtime/planes.h"
 #include "saca/thinking/intent/model.h"
 

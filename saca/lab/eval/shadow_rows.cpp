@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/printable.h"
+#include "saca/base/formats/json_text.h"
 
 namespace saca::eval {
 namespace {
@@ -89,7 +89,7 @@ std::string line_of(const ShadowRow& row) {
 
 Result<ShadowRow> shadow_row_from(std::string_view line) {
   try {
-    const auto read = config::parse_json(line);
+    const auto read = formats::parse_json(line);
     if (!read.has_value()) {
       return Error{Error::Code::malformed, "want one watched drive: " + read.error().message};
     }

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/contract.h"
 #include "saca/base/core/printable.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/lab/encounter/recorded_driver.h"
 
 namespace saca::eval {
@@ -351,7 +351,7 @@ std::string line_of(const SuiteRow& row) {
 }
 
 Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) {
-  const auto read = config::parse_json(line);
+  const auto read = formats::parse_json(line);
   if (!read.has_value()) {
     return Error{Error::Code::malformed, "want one encounter of a suite: " + read.error().message};
   }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "saca/base/config/checksummed_hdf5.h"
-#include "saca/base/config/hdf5_rows.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/checksummed_hdf5.h"
+#include "saca/base/formats/hdf5_rows.h"
 
 namespace saca::eval {
 namespace {
@@ -15,13 +15,13 @@ namespace {
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 template <class Value>
-void write_column(config::Hdf5Writer& writer, const std::string& name,
+void write_column(formats::Hdf5Writer& writer, const std::string& name,
                   std::span<const SuiteRow> rows, const Value& value) {
   std::vector<double> column;
   for (const SuiteRow& row : rows) {
     column.push_back(value(row));
   }
-  config::write_row(writer, name.c_str(), column);
+  formats::write_row(writer, name.c_str(), column);
 }
 
 double number_of(const std::optional<manoeuvre::Plan>& plan) {
@@ -30,7 +30,7 @@ double number_of(const std::optional<manoeuvre::Plan>& plan) {
 
 /// Columns of one comparison of each row: with risk, or the twin.
 template <class Part>
-void write_comparisons(config::Hdf5Writer& writer, const std::string& group,
+void write_comparisons(formats::Hdf5Writer& writer, const std::string& group,
                        std::span<const SuiteRow> rows, const std::vector<std::string>& methods,
                        const Part& part) {
   writer.group(group);
@@ -76,7 +76,7 @@ std::optional<Error> write_suite(const std::filesystem::path& path, std::span<co
                                  const std::vector<std::string>& methods,
                                  const std::string& about) {
   expects(!rows.empty(), "at least one row");
-  config::Hdf5Writer writer;
+  formats::Hdf5Writer writer;
   writer.text("about", about);
   std::vector<std::string> families;
   std::vector<std::string> faults;
@@ -87,14 +87,14 @@ std::optional<Error> write_suite(const std::filesystem::path& path, std::span<co
   }
   write_column(writer, "number", rows,
                [](const SuiteRow& row) { return static_cast<double>(row.number); });
-  config::write_lines(writer, "family", families);
-  config::write_lines(writer, "fault", faults);
+  formats::write_lines(writer, "family", families);
+  formats::write_lines(writer, "fault", faults);
   write_comparisons(writer, "risk", rows, methods,
                     [](const SuiteRow& row) { return row.fault.empty() ? &row.risk : nullptr; });
   write_comparisons(writer, "twin", rows, methods, [](const SuiteRow& row) {
     return row.fault.empty() && row.twin ? &*row.twin : nullptr;
   });
-  return config::write_sealed_hdf5(path, "saca.suite/1", writer);
+  return formats::write_sealed_hdf5(path, "saca.suite/1", writer);
 }
 
 }  // namespace saca::eval

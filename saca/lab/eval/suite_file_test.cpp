@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "saca/base/config/checksummed_hdf5.h"
-#include "saca/base/config/hdf5_rows.h"
+#include "saca/base/formats/checksummed_hdf5.h"
+#include "saca/base/formats/hdf5_rows.h"
 
 namespace saca::eval::suite_file_test {
 namespace {
@@ -38,29 +38,31 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
   const auto path = std::filesystem::temp_directory_path() / "saca_suite_file_test.h5";
   const std::vector<SuiteRow> rows{good, bad};
   ASSERT_EQ(write_suite(path, rows, {"aeb", "gentle", "full"}, R"({"n": 2})"), std::nullopt);
-  const auto read = config::read_sealed_hdf5(path, "saca.suite/1", [](config::Hdf5Reader& reader) {
-    const auto column = [&](const char* name) {
-      return config::read_row(reader, name, 2, config::Numbers::all);
-    };
-    EXPECT_EQ(reader.text("about"), R"({"n": 2})");
-    EXPECT_THAT(column("number"), testing::ElementsAre(7.0, 8.0));
-    EXPECT_THAT(config::read_lines(reader, "family", 2),
-                testing::ElementsAre("crossing", "head_on"));
-    EXPECT_THAT(config::read_lines(reader, "fault", 2), testing::ElementsAre("", "broken in two"));
-    EXPECT_EQ(column("risk/trigger_s")[0], 3.25);
-    EXPECT_TRUE(std::isnan(column("risk/trigger_s")[1]));
-    EXPECT_EQ(column("risk/best_policy")[0], 3.0);
-    EXPECT_EQ(column("risk/aeb/harm")[0], 0.5);
-    EXPECT_EQ(column("risk/aeb/contact")[0], 1.0);
-    EXPECT_EQ(column("risk/aeb/policy")[0], 6.0);
-    EXPECT_TRUE(std::isnan(column("risk/aeb/target_speed_mps")[0]));
-    EXPECT_TRUE(std::isnan(column("twin/aeb/harm")[0]));
-    EXPECT_EQ(column("risk/published_best_harm")[0], 0.25);
-    EXPECT_TRUE(std::isnan(column("risk/aeb/strength")[0]));  // a drift has none
-    EXPECT_EQ(column("risk/gentle/strength")[0], 0.45);
-    EXPECT_EQ(column("risk/full/strength")[0], 1.0);
-    return 0;
-  });
+  const auto read =
+      formats::read_sealed_hdf5(path, "saca.suite/1", [](formats::Hdf5Reader& reader) {
+        const auto column = [&](const char* name) {
+          return formats::read_row(reader, name, 2, formats::Numbers::all);
+        };
+        EXPECT_EQ(reader.text("about"), R"({"n": 2})");
+        EXPECT_THAT(column("number"), testing::ElementsAre(7.0, 8.0));
+        EXPECT_THAT(formats::read_lines(reader, "family", 2),
+                    testing::ElementsAre("crossing", "head_on"));
+        EXPECT_THAT(formats::read_lines(reader, "fault", 2),
+                    testing::ElementsAre("", "broken in two"));
+        EXPECT_EQ(column("risk/trigger_s")[0], 3.25);
+        EXPECT_TRUE(std::isnan(column("risk/trigger_s")[1]));
+        EXPECT_EQ(column("risk/best_policy")[0], 3.0);
+        EXPECT_EQ(column("risk/aeb/harm")[0], 0.5);
+        EXPECT_EQ(column("risk/aeb/contact")[0], 1.0);
+        EXPECT_EQ(column("risk/aeb/policy")[0], 6.0);
+        EXPECT_TRUE(std::isnan(column("risk/aeb/target_speed_mps")[0]));
+        EXPECT_TRUE(std::isnan(column("twin/aeb/harm")[0]));
+        EXPECT_EQ(column("risk/published_best_harm")[0], 0.25);
+        EXPECT_TRUE(std::isnan(column("risk/aeb/strength")[0]));  // a drift has none
+        EXPECT_EQ(column("risk/gentle/strength")[0], 0.45);
+        EXPECT_EQ(column("risk/full/strength")[0], 1.0);
+        return 0;
+      });
   EXPECT_TRUE(read.has_value()) << read.error().message;
   std::filesystem::remove(path);
 }

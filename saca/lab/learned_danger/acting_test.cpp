@@ -21,7 +21,7 @@ const world::Footprint body{.length = 4.3, .width = 1.8, .centre_x = 0.1};
 
 /// A network whose Q falls with one of the two numbers of a demand, and whose V adds `v` to h.
 Network preferring(std::size_t number, double sign) {
-  config::Tensors all = networks_that_hand_on();
+  formats::Tensors all = networks_that_hand_on();
   for (const std::string name : {"v.", "q1.", "q2."}) {
     if (name != "v.") {
       all.tensors.at(name + "0.weight").values[num_net_inputs + number] = static_cast<float>(sign);

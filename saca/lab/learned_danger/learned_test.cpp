@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "saca/base/config/tensors.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/learned_danger/networks_for_test.h"
 #include "saca/lab/learned_danger/state.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
@@ -20,8 +20,8 @@ namespace {
 
 /// Layers that hand on the first input, v_x / 20, and the sixth, the steering / 0.2: V = h +
 /// log(1 + exp(first + sixth)), as long as both are positive.
-config::Tensors handing_on() {
-  config::Tensors all = networks_that_hand_on();
+formats::Tensors handing_on() {
+  formats::Tensors all = networks_that_hand_on();
   for (const char* const name : {"v.", "q1.", "q2."}) {
     std::vector<float>& first = all.tensors.at(name + std::string("0.weight")).values;
     first[0] = 1.0F;

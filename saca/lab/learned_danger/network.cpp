@@ -31,14 +31,14 @@ float softplus(float x) {
 
 }  // namespace
 
-Result<Network::Layers> Network::layers_from(const config::Tensors& tensors,
+Result<Network::Layers> Network::layers_from(const formats::Tensors& tensors,
                                              const std::string& prefix, std::size_t inputs,
                                              std::string_view source) {
   Layers layers;
   for (std::size_t k = 0; k < layers.size(); ++k) {
     auto layer =
-        config::take_layer(tensors, prefix + std::to_string(k), k + 1 < layers.size() ? width : 1,
-                           k > 0 ? width : inputs, source);
+        formats::take_layer(tensors, prefix + std::to_string(k), k + 1 < layers.size() ? width : 1,
+                            k > 0 ? width : inputs, source);
     if (!layer.has_value()) {
       return layer.error();
     }
@@ -47,8 +47,9 @@ Result<Network::Layers> Network::layers_from(const config::Tensors& tensors,
   return layers;
 }
 
-Result<Network::TwoQ> Network::two_q_from(const config::Tensors& tensors, const std::string& prefix,
-                                          std::size_t inputs, std::string_view source) {
+Result<Network::TwoQ> Network::two_q_from(const formats::Tensors& tensors,
+                                          const std::string& prefix, std::size_t inputs,
+                                          std::string_view source) {
   auto q1 = layers_from(tensors, prefix + "q1.", inputs + num_actions, source);
   auto q2 = layers_from(tensors, prefix + "q2.", inputs + num_actions, source);
   for (const auto* each : {&q1, &q2}) {
@@ -59,7 +60,7 @@ Result<Network::TwoQ> Network::two_q_from(const config::Tensors& tensors, const 
   return TwoQ{std::move(q1).value(), std::move(q2).value()};
 }
 
-Result<Network> Network::from(const config::Tensors& tensors, std::string_view source) {
+Result<Network> Network::from(const formats::Tensors& tensors, std::string_view source) {
   Network network;
   auto v = layers_from(tensors, "v.", num_net_inputs, source);
   if (!v.has_value()) {
@@ -100,7 +101,7 @@ Result<Network> Network::from(const config::Tensors& tensors, std::string_view s
 std::uint64_t Network::digest() const {
   Fnv hash;
   const auto add = [&](const Layers& layers) {
-    for (const config::Layer& layer : layers) {
+    for (const formats::Layer& layer : layers) {
       layer.add_to(hash);
     }
   };
@@ -121,7 +122,7 @@ void Network::run(const Layers& layers, const float* inputs, std::size_t count, 
       inputs, static_cast<Eigen::Index>(layers[0].columns), columns);
   Columns y;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const config::Layer& layer = layers[k];
+    const formats::Layer& layer = layers[k];
     const auto rows = static_cast<Eigen::Index>(layer.rows);
     const Weights weight(layer.weight.data(), rows, static_cast<Eigen::Index>(layer.columns));
     y.resize(rows, columns);

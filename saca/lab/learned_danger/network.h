@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/learned_danger/net_inputs.h"
 #include "saca/onboard/manoeuvre/demand.h"
 
@@ -31,8 +31,8 @@ class Network {
   /// likewise `pair_v`, `pair_q1` and `pair_q2`, from num_pair_inputs on; without them two
   /// obstacles are as dangerous as the more dangerous one.
   /// Where there is a word `digest`, it must be that of the weights.
-  /// @return  Error::Code::malformed, as config::take
-  [[nodiscard]] static Result<Network> from(const config::Tensors& tensors,
+  /// @return  Error::Code::malformed, as formats::take
+  [[nodiscard]] static Result<Network> from(const formats::Tensors& tensors,
                                             std::string_view source);
 
   /// V_h of each by itself [m], as told (net_inputs.h). Allocates nothing.
@@ -60,13 +60,13 @@ class Network {
   [[nodiscard]] const std::map<std::string, std::string>& words() const { return words_; }
 
  private:
-  using Layers = std::array<config::Layer, 4>;
+  using Layers = std::array<formats::Layer, 4>;
   using TwoQ = std::array<Layers, 2>;
 
-  [[nodiscard]] static Result<Layers> layers_from(const config::Tensors& tensors,
+  [[nodiscard]] static Result<Layers> layers_from(const formats::Tensors& tensors,
                                                   const std::string& prefix, std::size_t inputs,
                                                   std::string_view source);
-  [[nodiscard]] static Result<TwoQ> two_q_from(const config::Tensors& tensors,
+  [[nodiscard]] static Result<TwoQ> two_q_from(const formats::Tensors& tensors,
                                                const std::string& prefix, std::size_t inputs,
                                                std::string_view source);
   /// Two obstacles, that one first whose V_h is higher.

@@ -20,15 +20,15 @@ namespace {
 
 using manoeuvre::Demand;
 
-config::Tensors drawn_tensors(Random& random) {
-  config::Tensors all;
+formats::Tensors drawn_tensors(Random& random) {
+  formats::Tensors all;
   const auto add = [&](const std::string& name, std::size_t inputs) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t rows = k < 3 ? Network::width : 1;
       const std::size_t columns = k > 0 ? Network::width : inputs;
       const double most = std::sqrt(3.0 / static_cast<double>(columns));
-      config::Tensor weight{{rows, columns}, {}};
-      config::Tensor bias{{rows}, {}};
+      formats::Tensor weight{{rows, columns}, {}};
+      formats::Tensor bias{{rows}, {}};
       for (std::size_t i = 0; i < rows * columns; ++i) {
         weight.values.push_back(static_cast<float>(uniform(random, -most, most)));
       }
@@ -59,10 +59,10 @@ SeenByNet drawn_seen(Random& random) {
 }
 
 /// What a network adds to h, written down anew: row by row, in double precision.
-double added(const config::Tensors& all, const std::string& name, std::vector<double> x) {
+double added(const formats::Tensors& all, const std::string& name, std::vector<double> x) {
   for (int k = 0; k < 4; ++k) {
-    const config::Tensor& weight = all.tensors.at(name + std::to_string(k) + ".weight");
-    const config::Tensor& bias = all.tensors.at(name + std::to_string(k) + ".bias");
+    const formats::Tensor& weight = all.tensors.at(name + std::to_string(k) + ".weight");
+    const formats::Tensor& bias = all.tensors.at(name + std::to_string(k) + ".bias");
     std::vector<double> y(bias.values.begin(), bias.values.end());
     for (std::size_t row = 0; row < y.size(); ++row) {
       for (std::size_t column = 0; column < x.size(); ++column) {
@@ -82,7 +82,7 @@ std::vector<double> inputs_of(const SeenByNet& seen) {
 class NetworkTest : public testing::Test {
  protected:
   Random random_{2};
-  const config::Tensors tensors_ = drawn_tensors(random_);
+  const formats::Tensors tensors_ = drawn_tensors(random_);
   const Network network_ = Network::from(tensors_, "weights").value();
 };
 
@@ -122,7 +122,7 @@ TEST_F(NetworkTest, TakesTheLargerOfTwoQ) {
 }
 
 /// V of each by itself, then of two by the definition of a pair.
-double pair_value(const config::Tensors& tensors, const SeenByNet& a, const SeenByNet& b) {
+double pair_value(const formats::Tensors& tensors, const SeenByNet& a, const SeenByNet& b) {
   const auto single = [&](const SeenByNet& one) {
     return std::max(-15.0, one.h) + added(tensors, "v.", inputs_of(one));
   };
@@ -152,7 +152,7 @@ TEST_F(NetworkTest, AddsWhatTwoObstaclesAre) {
   std::reverse(seen.begin(), seen.end());
   EXPECT_EQ(network_.joint_value(seen), all);
 
-  config::Tensors no_pairs;
+  formats::Tensors no_pairs;
   for (const auto& [name, tensor] : tensors_.tensors) {
     if (name.find("pair_") == std::string::npos) {
       no_pairs.tensors[name] = tensor;
@@ -198,13 +198,13 @@ TEST_F(NetworkTest, AllocatesNothing) {
 
 TEST_F(NetworkTest, IsNamedByItsWeights) {
   EXPECT_EQ(network_.digest(), Network::from(tensors_, "again").value().digest());
-  config::Tensors other = tensors_;
+  formats::Tensors other = tensors_;
   other.tensors["q2.3.bias"].values[0] += 1e-3F;
   EXPECT_NE(network_.digest(), Network::from(other, "other").value().digest());
 }
 
 TEST_F(NetworkTest, RefusesWeightsThatWereAltered) {
-  config::Tensors tensors = tensors_;
+  formats::Tensors tensors = tensors_;
   char digest[17];
   std::snprintf(digest, sizeof(digest), "%016llx",
                 static_cast<unsigned long long>(network_.digest()));
@@ -220,7 +220,7 @@ TEST_F(NetworkTest, RefusesWeightsThatWereAltered) {
 TEST_F(NetworkTest, RefusesWhatIsNotItsWeights) {
   for (const std::string name :
        {"v.0.weight", "q1.2.bias", "q2.3.weight", "pair_v.3.bias", "pair_q2.0.weight"}) {
-    config::Tensors other = tensors_;
+    formats::Tensors other = tensors_;
     other.tensors.erase(name);
     const auto network = Network::from(other, "some.safetensors");
     ASSERT_FALSE(network.has_value());

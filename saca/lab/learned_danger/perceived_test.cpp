@@ -19,7 +19,7 @@ namespace {
 
 /// V = h + log(1 + exp(v_x / 20 + steering / 0.2)), where both are positive.
 Network network() {
-  config::Tensors all = networks_that_hand_on();
+  formats::Tensors all = networks_that_hand_on();
   all.tensors.at("v.0.weight").values[0] = 1.0F;
   all.tensors.at("v.0.weight").values[5] = 1.0F;
   return Network::from(all, "weights").value();

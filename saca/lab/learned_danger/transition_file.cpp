@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/base/config/checksummed_hdf5.h"
+#include "saca/base/formats/checksummed_hdf5.h"
 
 namespace saca::learned_danger {
 namespace {
@@ -61,7 +61,7 @@ std::vector<float> costs(const Transitions& all) {
 
 constexpr std::int32_t many = std::numeric_limits<std::int32_t>::max();
 
-Part read(config::Hdf5Reader& reader) {
+Part read(formats::Hdf5Reader& reader) {
   Part part;
   part.car = reader.text_attribute(".", "car");
   const std::string seed = reader.text_attribute(".", "seed");
@@ -106,7 +106,7 @@ Part read(config::Hdf5Reader& reader) {
 
 std::optional<Error> write_part(const std::filesystem::path& path, const Part& part) {
   const Transitions& all = part.transitions;
-  config::Hdf5Writer writer;
+  formats::Hdf5Writer writer;
   writer.attribute(".", "car", part.car);
   writer.attribute(".", "seed", std::to_string(part.seed));
   writer.attribute(".", "looks", part.mixture.looks);
@@ -127,11 +127,11 @@ std::optional<Error> write_part(const std::filesystem::path& path, const Part& p
   }
   writer.numbers<float>("rewards", {all.size()}, {rewards(all).data()});
   writer.numbers<float>("costs", {all.size()}, {costs(all).data()});
-  return config::write_sealed_hdf5(path, part_format, writer);
+  return formats::write_sealed_hdf5(path, part_format, writer);
 }
 
 Result<Part> read_part(const std::filesystem::path& path) {
-  return config::read_sealed_hdf5(path, part_format, read);
+  return formats::read_sealed_hdf5(path, part_format, read);
 }
 
 Result<Part> read_part_of(const std::filesystem::path& path, const std::string& car) {

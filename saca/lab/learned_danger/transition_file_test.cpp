@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "saca/base/config/hdf5_reader.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/hdf5_reader.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/danger/car_limits.h"
 
@@ -58,7 +58,7 @@ TEST_F(TransitionFile, HoldsAllThatWasWritten) {
 // Who reads DSRL's data sets finds its arrays, and what they mean there.
 TEST_F(TransitionFile, HasTheLayoutOfDsrl) {
   ASSERT_FALSE(write_part(path_, part_).has_value());
-  config::Hdf5Reader reader(path_.string(), path_);
+  formats::Hdf5Reader reader(path_.string(), path_);
   const std::size_t n = part_.transitions.size();
   for (const char* name : {"rewards", "costs", "terminals", "timeouts"}) {
     EXPECT_EQ(reader.extents(name), std::vector<std::size_t>{n}) << name;

@@ -110,7 +110,7 @@ TEST_F(TransitionsTest, AreTheSeedsAndHalfStartNearTheBoundary) {
 
 /// A network that brakes whatever comes: of all demands, braking adds least to Q.
 Network braking_network() {
-  config::Tensors all = networks_that_hand_on();
+  formats::Tensors all = networks_that_hand_on();
   for (const char* const name : {"q1.", "q2."}) {
     all.tensors.at(name + std::string("0.weight")).values[num_net_inputs] = 1.0F;
     all.tensors.at(name + std::string("0.bias")).values[0] = 2.0F;

@@ -495,7 +495,7 @@ Tensor DangerNetImpl::forward(const Tensor& inputs, const Tensor& h) {
   return h + added(inputs);
 }
 
-void DangerNetImpl::add_to(config::Tensors& tensors, const std::string& prefix) const {
+void DangerNetImpl::add_to(formats::Tensors& tensors, const std::string& prefix) const {
   int number = 0;
   for (const auto* layer : {&first_, &second_, &third_, &last_}) {
     const std::string name = prefix + std::to_string(number++);
@@ -504,7 +504,7 @@ void DangerNetImpl::add_to(config::Tensors& tensors, const std::string& prefix) 
   }
 }
 
-void DangerNetImpl::take(const config::Tensors& tensors, const std::string& prefix) {
+void DangerNetImpl::take(const formats::Tensors& tensors, const std::string& prefix) {
   const torch::NoGradGuard none;
   int number = 0;
   const auto copy = [&](const Tensor& to, const std::string& name) {
@@ -519,8 +519,8 @@ void DangerNetImpl::take(const config::Tensors& tensors, const std::string& pref
   }
 }
 
-DangerNet danger_net(const config::Tensors& tensors, const std::string& prefix) {
-  const config::Tensor& first = tensors.tensors.at(prefix + "0.weight");
+DangerNet danger_net(const formats::Tensors& tensors, const std::string& prefix) {
+  const formats::Tensor& first = tensors.tensors.at(prefix + "0.weight");
   DangerNet net(static_cast<std::int64_t>(first.shape.at(1)),
                 static_cast<std::int64_t>(first.shape.at(0)));
   net->take(tensors, prefix);
@@ -549,7 +549,7 @@ FittedNetsImpl::FittedNetsImpl(std::int64_t width)
   follow(slow_v, v, 1.0);
 }
 
-void DangerNetsImpl::add_to(config::Tensors& tensors, const std::string& prefix) const {
+void DangerNetsImpl::add_to(formats::Tensors& tensors, const std::string& prefix) const {
   v->add_to(tensors, prefix + "v.");
   q1->add_to(tensors, prefix + "q1.");
   q2->add_to(tensors, prefix + "q2.");

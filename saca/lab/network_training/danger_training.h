@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/learned_danger/experience.h"
 #include "saca/lab/learned_danger/net_inputs.h"
 #include "saca/lab/learned_danger/network.h"
@@ -53,9 +53,9 @@ class DangerNetImpl : public torch::nn::Module {
   /// Without h: (B), >= 0.
   torch::Tensor added(const torch::Tensor& inputs);
   /// Adds its weights as `prefix` + "0.weight", "0.bias", ... "3.bias".
-  void add_to(config::Tensors& tensors, const std::string& prefix) const;
+  void add_to(formats::Tensors& tensors, const std::string& prefix) const;
   /// Takes them.
-  void take(const config::Tensors& tensors, const std::string& prefix);
+  void take(const formats::Tensors& tensors, const std::string& prefix);
 
  private:
   torch::nn::Linear first_;
@@ -67,7 +67,7 @@ TORCH_MODULE(DangerNet);
 
 /// What DangerNetImpl::add_to wrote.
 /// @param tensors  has them, as learned_danger::Network checks
-[[nodiscard]] DangerNet danger_net(const config::Tensors& tensors, const std::string& prefix);
+[[nodiscard]] DangerNet danger_net(const formats::Tensors& tensors, const std::string& prefix);
 
 /// V_h, and the two Q_h with their slow copies.
 class DangerNetsImpl : public torch::nn::Module {
@@ -82,7 +82,7 @@ class DangerNetsImpl : public torch::nn::Module {
   DangerNet slow_q2;
 
   /// Adds what is shipped: `prefix` + "v.0.weight", ..., and both q.
-  void add_to(config::Tensors& tensors, const std::string& prefix) const;
+  void add_to(formats::Tensors& tensors, const std::string& prefix) const;
 };
 TORCH_MODULE(DangerNets);
 

@@ -89,8 +89,8 @@ class Wall {
   Experience all_;
 };
 
-config::Tensors tensors_of(const DangerNets& nets) {
-  config::Tensors all;
+formats::Tensors tensors_of(const DangerNets& nets) {
+  formats::Tensors all;
   nets->add_to(all, "");
   return all;
 }
@@ -152,7 +152,7 @@ TEST(DangerTraining, IsTheSeedsWhateverTheThreads) {
   DangerPlan plan = quick();
   plan.steps = 40;
   const auto bytes = [&](int threads) {
-    return config::tensor_bytes(tensors_of(
+    return formats::tensor_bytes(tensors_of(
         trained_danger(wall.experience(), nullptr, plan, threads, {}, every_point).value()));
   };
   const std::string one = bytes(1);
@@ -183,8 +183,8 @@ TEST(DangerTraining, GoesOnWhereItWasStopped) {
       });
   ASSERT_TRUE(rest.has_value());
   EXPECT_EQ(steps, (std::vector<int>{500, 1'000, 1'200}));
-  EXPECT_EQ(config::tensor_bytes(tensors_of(rest.value())),
-            config::tensor_bytes(tensors_of(whole.value())));
+  EXPECT_EQ(formats::tensor_bytes(tensors_of(rest.value())),
+            formats::tensor_bytes(tensors_of(whole.value())));
 
   plan.expectile = 0.95;
   const auto other = trained_danger(wall.experience(), nullptr, plan, 1, state, every_point);
@@ -369,7 +369,7 @@ TEST(DangerTraining, QIsOneLookAndThenWhatVIsOf) {
   DangerPlan plan = quick();
   plan.steps = 1'500;
   DangerNet nearer(static_cast<std::int64_t>(learned_danger::num_net_inputs), plan.width);
-  config::Tensors weights;
+  formats::Tensors weights;
   nearer->add_to(weights, "v.");
   for (auto& [name, tensor] : weights.tensors) {
     std::fill(tensor.values.begin(), tensor.values.end(), 0.0F);
@@ -403,7 +403,7 @@ TEST(DangerTraining, IsTheNetworkThatTheProductRuns) {
   constexpr auto width = static_cast<std::int64_t>(learned_danger::Network::width);
   DangerNets nets(static_cast<std::int64_t>(learned_danger::num_net_inputs), width);
   DangerNets pairs(static_cast<std::int64_t>(learned_danger::num_pair_inputs), width);
-  config::Tensors tensors = tensors_of(nets);
+  formats::Tensors tensors = tensors_of(nets);
   pairs->add_to(tensors, "pair_");
   const auto network = learned_danger::Network::from(tensors, "weights");
   ASSERT_TRUE(network.has_value()) << network.error().message;

@@ -69,8 +69,8 @@ torch::Tensor ImitatorNetImpl::loss(const Batch& batch) {
   return torch::nn::functional::nll_loss(p, batch.labels.reshape({-1}));
 }
 
-config::Tensors ImitatorNetImpl::tensors() const {
-  config::Tensors all;
+formats::Tensors ImitatorNetImpl::tensors() const {
+  formats::Tensors all;
   const auto add = [&](const char* name, const torch::nn::Linear& layer) {
     all.tensors[std::string(name) + ".weight"] = plain(layer->weight);
     all.tensors[std::string(name) + ".bias"] = plain(layer->bias);

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/eval/imitator.h"
 #include "saca/lab/network_training/task.h"
 #include "saca/thinking/memory/case.h"
@@ -27,7 +27,7 @@ class ImitatorNetImpl : public torch::nn::Module {
   torch::Tensor loss(const Batch& batch);
 
   /// The tensors of eval::Imitator.
-  [[nodiscard]] config::Tensors tensors() const;
+  [[nodiscard]] formats::Tensors tensors() const;
 
  private:
   torch::Tensor scores(const torch::Tensor& inputs);

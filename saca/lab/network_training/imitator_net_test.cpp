@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "saca/base/config/tensors.h"
+#include "saca/base/formats/tensors.h"
 
 namespace saca::network_training::imitator_net_test {
 namespace {
@@ -84,7 +84,7 @@ TEST(ImitatorNet, SameSeedSameBytes) {
     Schedule schedule = quick();
     schedule.seed = seed;
     schedule.epochs = 3;
-    return config::tensor_bytes(
+    return formats::tensor_bytes(
         trained_imitator(pieces, {}, schedule, 0.1, "", every_epoch).value()->tensors());
   };
   EXPECT_EQ(bytes(1), bytes(1));

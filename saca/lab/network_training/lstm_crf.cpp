@@ -106,7 +106,7 @@ torch::Tensor LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& bat
   return -(counts * of_label).sum() / counts.sum().clamp_min(1e-6);
 }
 
-void LstmCrfImpl::add_network(config::Tensors& tensors, const std::string& prefix) const {
+void LstmCrfImpl::add_network(formats::Tensors& tensors, const std::string& prefix) const {
   const auto named = lstm_->named_parameters();
   const auto add = [&](const std::string& name, const torch::Tensor& value) {
     tensors.tensors[prefix + name] = plain(value);

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "saca/base/config/tensors.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/network_training/task.h"
 #include "saca/thinking/intent/crf.h"
 
@@ -34,7 +34,7 @@ class LstmCrfImpl : public torch::nn::Module {
                      const ClassWeights& weights = all_alike);
 
   /// Weights under the names of intent/network.h.
-  void add_network(config::Tensors& tensors, const std::string& prefix) const;
+  void add_network(formats::Tensors& tensors, const std::string& prefix) const;
   /// Start and transition of all horizons: symmetric in the mirror.   (H x K, H x K x K)
   [[nodiscard]] torch::Tensor start() const;
   [[nodiscard]] torch::Tensor transition() const;

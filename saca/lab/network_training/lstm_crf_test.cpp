@@ -113,7 +113,7 @@ TEST(LstmCrf, EmissionsAreThoseOfTheNetworkThatIsWritten) {
   const torch::NoGradGuard no_gradients;
   const torch::Tensor features = torch::randn({1, 20, static_cast<std::int64_t>(num_features)});
   const torch::Tensor told = network->emissions(features);
-  config::Tensors tensors;
+  formats::Tensors tensors;
   network->add_network(tensors, "0.");
   const auto written = intent::Network::from(tensors, "0.", "w");
   ASSERT_TRUE(written.has_value()) << written.error().message;

@@ -124,9 +124,9 @@ torch::Tensor PlaceMixtureImpl::loss(const Batch& batch) {
   return (of_frames * known).sum() / known.sum().clamp_min(1.0);
 }
 
-config::Tensors PlaceMixtureImpl::tensors() const {
+formats::Tensors PlaceMixtureImpl::tensors() const {
   const auto named = lstm_->named_parameters();
-  config::Tensors all;
+  formats::Tensors all;
   all.tensors["input.weight"] = plain(input_->weight);
   all.tensors["input.bias"] = plain(input_->bias);
   all.tensors["lstm.weight"] = plain(torch::cat({named["weight_ih_l0"], named["weight_hh_l0"]}, 1));

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "saca/base/config/tensors.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/eval/mixture_lstm.h"
 #include "saca/lab/eval/place_examples.h"
 #include "saca/lab/network_training/task.h"
@@ -24,7 +24,7 @@ class PlaceMixtureImpl : public torch::nn::Module {
   torch::Tensor loss(const Batch& batch);
 
   /// The tensors of eval::MixtureModel.
-  [[nodiscard]] config::Tensors tensors() const;
+  [[nodiscard]] formats::Tensors tensors() const;
 
  private:
   torch::nn::Linear input_;

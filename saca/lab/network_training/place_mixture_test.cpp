@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/tensors.h"
 
 namespace saca::network_training::place_mixture_test {
 namespace {
@@ -50,7 +50,7 @@ Schedule quick() {
 }
 
 std::string bytes_of(const PlaceMixture& network) {
-  return config::tensor_bytes(network->tensors());
+  return formats::tensor_bytes(network->tensors());
 }
 
 // What the product computes from the weights is what was trained, and the loss is the score that

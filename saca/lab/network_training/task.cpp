@@ -318,9 +318,9 @@ Result<std::optional<torch::Tensor>> resume(const TrainingState& state, torch::n
   }
 }
 
-config::Tensor plain(const torch::Tensor& tensor) {
+formats::Tensor plain(const torch::Tensor& tensor) {
   const torch::Tensor flat = tensor.detach().to(torch::kFloat32).contiguous();
-  config::Tensor result;
+  formats::Tensor result;
   for (const std::int64_t extent : flat.sizes()) {
     result.shape.push_back(static_cast<std::size_t>(extent));
   }

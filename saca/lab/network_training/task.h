@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 
 namespace saca::network_training {
 
@@ -106,6 +106,6 @@ struct TrainingState {
                                                           torch::optim::Optimizer& optimiser);
 
 /// A tensor's numbers, for files.
-[[nodiscard]] config::Tensor plain(const torch::Tensor& tensor);
+[[nodiscard]] formats::Tensor plain(const torch::Tensor& tensor);
 
 }  // namespace saca::network_training

@@ -186,10 +186,10 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
   return network;
 }
 
-void set_calibrations(config::Tensors& tensors, const training::Calibrations& calibrations) {
-  config::Tensor inverse_temperature{{intent::num_horizons}, {}};
-  config::Tensor bias{{intent::num_horizons, intent::num_classes}, {}};
-  config::Tensor naming = bias;
+void set_calibrations(formats::Tensors& tensors, const training::Calibrations& calibrations) {
+  formats::Tensor inverse_temperature{{intent::num_horizons}, {}};
+  formats::Tensor bias{{intent::num_horizons, intent::num_classes}, {}};
+  formats::Tensor naming = bias;
   for (const intent::Calibration& each : calibrations) {
     inverse_temperature.values.push_back(static_cast<float>(each.inverse_temperature));
     for (std::size_t k = 0; k < intent::num_classes; ++k) {
@@ -202,9 +202,9 @@ void set_calibrations(config::Tensors& tensors, const training::Calibrations& ca
   tensors.tensors["naming"] = std::move(naming);
 }
 
-config::Tensors model_tensors(const std::vector<LstmCrf>& networks) {
+formats::Tensors model_tensors(const std::vector<LstmCrf>& networks) {
   expects(!networks.empty(), "at least one network");
-  config::Tensors tensors;
+  formats::Tensors tensors;
   torch::Tensor start = torch::zeros_like(networks[0]->start());
   torch::Tensor transition = torch::zeros_like(networks[0]->transition());
   const double share = 1.0 / static_cast<double>(networks.size());

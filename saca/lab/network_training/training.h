@@ -61,9 +61,9 @@ struct TrainingPlan {
 
 /// The tensors of intent/model.h: networks trained from several seeds, and the mean of their
 /// chains; not calibrated.
-[[nodiscard]] config::Tensors model_tensors(const std::vector<LstmCrf>& networks);
+[[nodiscard]] formats::Tensors model_tensors(const std::vector<LstmCrf>& networks);
 
 /// Puts calibrations into a model's tensors, in the place of those that are there.
-void set_calibrations(config::Tensors& tensors, const training::Calibrations& calibrations);
+void set_calibrations(formats::Tensors& tensors, const training::Calibrations& calibrations);
 
 }  // namespace saca::network_training

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/training/predict.h"
 #include "saca/lab/training/score.h"
 #include "saca/lab/training/simulated.h"
@@ -26,7 +26,7 @@ TrainingPlan short_plan() {
 }
 
 std::string bytes_of(const LstmCrf& network) {
-  return config::tensor_bytes(model_tensors({network}));
+  return formats::tensor_bytes(model_tensors({network}));
 }
 
 fs::path state_file(const char* name) {
@@ -100,7 +100,7 @@ TEST(Training, WillNotGoOnWithAnother) {
 }
 
 TEST(Training, CalibrationsTakeThePlaceOfThoseThatAreThere) {
-  config::Tensors tensors = model_tensors({LstmCrf(0.0)});
+  formats::Tensors tensors = model_tensors({LstmCrf(0.0)});
   training::Calibrations calibrations;
   calibrations[1] = {.inverse_temperature = 0.5,
                      .bias = {0.0, -0.5, -0.5, 0.25, 0.125, 0.125},

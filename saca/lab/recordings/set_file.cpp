@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/base/config/checksummed_file.h"
-#include "saca/base/config/hdf5_reader.h"
-#include "saca/base/config/hdf5_writer.h"
 #include "saca/base/core/contract.h"
 #include "saca/base/core/csv.h"
+#include "saca/base/formats/checksummed_file.h"
+#include "saca/base/formats/hdf5_reader.h"
+#include "saca/base/formats/hdf5_writer.h"
 
 namespace saca::recordings {
 namespace {
@@ -70,7 +70,8 @@ constexpr std::array<SampleColumn, 16> sample_columns{{
 // --- writing
 // --------------------------------------------------------------------------------------
 
-void write_column(config::Hdf5Writer& writer, const char* name, const std::vector<double>& column) {
+void write_column(formats::Hdf5Writer& writer, const char* name,
+                  const std::vector<double>& column) {
   writer.numbers<double>(name, {column.size()}, {column.data()});
 }
 
@@ -115,7 +116,7 @@ std::vector<const Sample*> samples_of(const std::vector<const RecordedVehicle*>&
   return samples;
 }
 
-void write_recordings(config::Hdf5Writer& writer, const std::vector<Recording>& recordings) {
+void write_recordings(formats::Hdf5Writer& writer, const std::vector<Recording>& recordings) {
   writer.group("recordings");
   writer.text("recordings/names", lines_of(recordings, [](const auto& r) { return r.name; }));
   writer.text("recordings/sites", lines_of(recordings, [](const auto& r) { return r.site; }));
@@ -126,7 +127,7 @@ void write_recordings(config::Hdf5Writer& writer, const std::vector<Recording>& 
                column_of(recordings, [](const auto& r) { return r.vehicles.size(); }));
 }
 
-void write_vehicles(config::Hdf5Writer& writer,
+void write_vehicles(formats::Hdf5Writer& writer,
                     const std::vector<const RecordedVehicle*>& vehicles) {
   writer.group("vehicles");
   write_column(writer, "vehicles/id", column_of(vehicles, [](const auto* v) { return v->id; }));
@@ -141,7 +142,7 @@ void write_vehicles(config::Hdf5Writer& writer,
                column_of(vehicles, [](const auto* v) { return v->samples.size(); }));
 }
 
-void write_samples(config::Hdf5Writer& writer, const std::vector<const Sample*>& samples) {
+void write_samples(formats::Hdf5Writer& writer, const std::vector<const Sample*>& samples) {
   writer.group("samples");
   write_column(writer, "samples/x_m",
                column_of(samples, [](const auto* s) { return s->X_WA.p.x; }));
@@ -159,7 +160,7 @@ void write_samples(config::Hdf5Writer& writer, const std::vector<const Sample*>&
 // --------------------------------------------------------------------------------------
 
 /// As many lines as wanted; else it is rejected.
-std::vector<std::string> read_lines(config::Hdf5Reader& reader, const char* name,
+std::vector<std::string> read_lines(formats::Hdf5Reader& reader, const char* name,
                                     std::size_t wanted) {
   const std::string text = reader.text(name);
   std::vector<std::string> lines;
@@ -175,7 +176,7 @@ std::vector<std::string> read_lines(config::Hdf5Reader& reader, const char* name
 }
 
 /// How many numbers stand in a data set; 0 after a problem.
-std::size_t size_of(config::Hdf5Reader& reader, const char* name) {
+std::size_t size_of(formats::Hdf5Reader& reader, const char* name) {
   const std::vector<std::size_t> extents = reader.extents(name);
   if (!reader.problem() && extents.size() != 1) {
     reader.reject(fmt::format("data set {}", name), "a row of numbers", "another shape");
@@ -184,8 +185,8 @@ std::size_t size_of(config::Hdf5Reader& reader, const char* name) {
 }
 
 template <class Real>
-std::vector<Real> read_column(config::Hdf5Reader& reader, const char* name, std::size_t size,
-                              config::Numbers allowed) {
+std::vector<Real> read_column(formats::Hdf5Reader& reader, const char* name, std::size_t size,
+                              formats::Numbers allowed) {
   reader.want_numbers<Real>(name, {size});
   std::vector<Real> column(reader.problem() ? 0 : size);
   if (!reader.problem()) {
@@ -196,10 +197,10 @@ std::vector<Real> read_column(config::Hdf5Reader& reader, const char* name, std:
 }
 
 /// Whole numbers in [least, most].
-std::vector<std::int64_t> read_whole(config::Hdf5Reader& reader, const char* name, std::size_t size,
-                                     double least) {
+std::vector<std::int64_t> read_whole(formats::Hdf5Reader& reader, const char* name,
+                                     std::size_t size, double least) {
   std::vector<std::int64_t> whole;
-  for (const double value : read_column<double>(reader, name, size, config::Numbers::finite)) {
+  for (const double value : read_column<double>(reader, name, size, formats::Numbers::finite)) {
     if (!reader.problem() &&
         !(value >= least && value <= largest_whole && value == std::floor(value))) {
       reader.reject(fmt::format("data set {}", name),
@@ -211,8 +212,8 @@ std::vector<std::int64_t> read_whole(config::Hdf5Reader& reader, const char* nam
 }
 
 /// Rejects counts that do not add up to what they count.
-void want_sum(config::Hdf5Reader& reader, const char* name, const std::vector<std::int64_t>& counts,
-              std::size_t wanted) {
+void want_sum(formats::Hdf5Reader& reader, const char* name,
+              const std::vector<std::int64_t>& counts, std::size_t wanted) {
   std::size_t sum = 0;
   for (const std::int64_t count : counts) {
     sum = std::min(sum + static_cast<std::size_t>(count), std::size_t{1} << 62);
@@ -223,8 +224,8 @@ void want_sum(config::Hdf5Reader& reader, const char* name, const std::vector<st
   }
 }
 
-std::vector<Sample> read_samples(config::Hdf5Reader& reader) {
-  using config::Numbers;
+std::vector<Sample> read_samples(formats::Hdf5Reader& reader) {
+  using formats::Numbers;
   const std::size_t size = size_of(reader, "samples/x_m");
   const auto x = read_column<double>(reader, "samples/x_m", size, Numbers::all);
   const auto y = read_column<double>(reader, "samples/y_m", size, Numbers::all);
@@ -241,8 +242,8 @@ std::vector<Sample> read_samples(config::Hdf5Reader& reader) {
   return samples;
 }
 
-std::vector<RecordedVehicle> read_vehicles(config::Hdf5Reader& reader) {
-  using config::Numbers;
+std::vector<RecordedVehicle> read_vehicles(formats::Hdf5Reader& reader) {
+  using formats::Numbers;
   const std::size_t size = size_of(reader, "vehicles/id");
   const auto id = read_whole(reader, "vehicles/id", size, -largest_whole);
   const auto types = read_lines(reader, "vehicles/types", size);
@@ -262,12 +263,13 @@ std::vector<RecordedVehicle> read_vehicles(config::Hdf5Reader& reader) {
   return vehicles;
 }
 
-void read_recordings(config::Hdf5Reader& reader, RecordedSet& set) {
+void read_recordings(formats::Hdf5Reader& reader, RecordedSet& set) {
   const std::size_t size = size_of(reader, "recordings/step_s");
   const auto names = read_lines(reader, "recordings/names", size);
   const auto sites = read_lines(reader, "recordings/sites", size);
   const auto groups = read_lines(reader, "recordings/groups", size);
-  const auto step = read_column<double>(reader, "recordings/step_s", size, config::Numbers::finite);
+  const auto step =
+      read_column<double>(reader, "recordings/step_s", size, formats::Numbers::finite);
   const auto num_vehicles = read_whole(reader, "recordings/num_vehicles", size, 1.0);
   std::vector<RecordedVehicle> vehicles = read_vehicles(reader);
   want_sum(reader, "recordings/num_vehicles", num_vehicles, vehicles.size());
@@ -279,7 +281,7 @@ void read_recordings(config::Hdf5Reader& reader, RecordedSet& set) {
   }
 }
 
-void read_skipped(config::Hdf5Reader& reader, RecordedSet& set) {
+void read_skipped(formats::Hdf5Reader& reader, RecordedSet& set) {
   if (!reader.has("skipped")) {
     return;
   }
@@ -297,7 +299,7 @@ std::optional<Error> write_set(const std::filesystem::path& path, const Recorded
   const std::optional<std::string> broken = broken_rule(set);
   expects(!broken, "the set breaks no rule");
   const std::vector<const RecordedVehicle*> vehicles = vehicles_of(set);
-  config::Hdf5Writer writer;
+  formats::Hdf5Writer writer;
   writer.attribute(".", "format", std::string(set_format));
   write_recordings(writer, set.recordings);
   write_vehicles(writer, vehicles);
@@ -312,15 +314,15 @@ std::optional<Error> write_set(const std::filesystem::path& path, const Recorded
   if (!body) {
     return Error{Error::Code::unwritable, path.string() + ": HDF5 cannot make the file in memory"};
   }
-  return config::write_checksummed(path, set_format, *body);
+  return formats::write_checksummed(path, set_format, *body);
 }
 
 Result<RecordedSet> read_set(const std::filesystem::path& path) {
-  if (const auto problem = config::verify_checksum(path, set_format)) {
+  if (const auto problem = formats::verify_checksum(path, set_format)) {
     return *problem;
   }
   try {
-    config::Hdf5Reader reader(path.string(), path);
+    formats::Hdf5Reader reader(path.string(), path);
     const std::string format = reader.text_attribute(".", "format");
     if (!reader.problem() && format != set_format) {
       reader.reject("attribute format", std::string(set_format), format);

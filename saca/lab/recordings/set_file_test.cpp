@@ -8,10 +8,10 @@
 #include <limits>
 #include <string>
 
-#include "saca/base/config/checksummed_file.h"
-#include "saca/base/config/hdf5_writer.h"
 #include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/checksummed_file.h"
+#include "saca/base/formats/hdf5_writer.h"
 
 namespace saca::recordings::set_file_test {
 namespace {
@@ -92,7 +92,7 @@ class SetFile : public ::testing::Test {
     return set.has_value() ? "" : set.error().message;
   }
   /// What a small set's file is, but for one part.
-  void write_but(const std::string& part, const std::function<void(config::Hdf5Writer&)>& other);
+  void write_but(const std::string& part, const std::function<void(formats::Hdf5Writer&)>& other);
 
   fs::path path_;
 };
@@ -150,16 +150,16 @@ TEST_F(SetFile, TellsDamageAndOtherFiles) {
   const std::string whole = read_file(path_).value();
   ASSERT_EQ(write_file(path_, whole.substr(0, whole.size() / 2)), std::nullopt);
   EXPECT_THAT(refusal(), HasSubstr("cut off or damaged"));
-  ASSERT_EQ(config::write_checksummed(path_, "saca.traffic/9", "body"), std::nullopt);
+  ASSERT_EQ(formats::write_checksummed(path_, "saca.traffic/9", "body"), std::nullopt);
   EXPECT_THAT(refusal(), HasSubstr("want a file of saca.traffic/1, got saca.traffic/9"));
-  ASSERT_EQ(config::write_checksummed(path_, "saca.traffic/1", "no HDF5"), std::nullopt);
+  ASSERT_EQ(formats::write_checksummed(path_, "saca.traffic/1", "no HDF5"), std::nullopt);
   EXPECT_THAT(refusal(), HasSubstr("want HDF5"));
 }
 
 // A sound file by other means, in which one part is as a test wants it: what the seal cannot see.
 void SetFile::write_but(const std::string& part,
-                        const std::function<void(config::Hdf5Writer&)>& other) {
-  config::Hdf5Writer writer;
+                        const std::function<void(formats::Hdf5Writer&)>& other) {
+  formats::Hdf5Writer writer;
   const auto put = [&](const std::string& name, const std::function<void()>& usual) {
     name == part ? other(writer) : usual();
   };
@@ -196,7 +196,7 @@ void SetFile::write_but(const std::string& part,
   }
   lines("skipped/reasons", "why\n");
   column("skipped/counts", {4.0});
-  ASSERT_EQ(config::write_checksummed(path_, "saca.traffic/1", writer.bytes().value()),
+  ASSERT_EQ(formats::write_checksummed(path_, "saca.traffic/1", writer.bytes().value()),
             std::nullopt);
 }
 
@@ -207,17 +207,17 @@ TEST_F(SetFile, TakesAFileThatAnotherProgramWrote) {
 
 TEST_F(SetFile, ChecksEachPart) {
   const auto numbers = [](const char* name, std::vector<double> values) {
-    return [name, values](config::Hdf5Writer& writer) {
+    return [name, values](formats::Hdf5Writer& writer) {
       writer.numbers<double>(name, {values.size()}, {values.data()});
     };
   };
   const auto floats = [](const char* name, std::vector<float> values) {
-    return [name, values](config::Hdf5Writer& writer) {
+    return [name, values](formats::Hdf5Writer& writer) {
       writer.numbers<float>(name, {values.size()}, {values.data()});
     };
   };
   const double nan = not_known;
-  const std::vector<std::pair<const char*, std::function<void(config::Hdf5Writer&)>>> parts{
+  const std::vector<std::pair<const char*, std::function<void(formats::Hdf5Writer&)>>> parts{
       {"format", [](auto& w) { w.attribute(".", "format", std::string("saca.traffic/2")); }},
       {"format", [](auto&) {}},
       {"recordings/names", [](auto& w) { w.text("recordings/names", "a\nb\n"); }},

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "saca/base/config/short_numbers.h"
 #include "saca/base/core/percentile.h"
 #include "saca/base/core/proportion.h"
 #include "saca/base/core/units.h"
+#include "saca/base/formats/short_numbers.h"
 
 namespace saca::report {
 namespace {
@@ -191,7 +191,7 @@ std::string drive_json(const DriveRecord& record) {
        })},
       {"wheels", wheels},
       {"draws", record.draws ? draws_json(record, *record.draws) : json()}};
-  return config::with_short_numbers(json(document))
+  return formats::with_short_numbers(json(document))
       .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

@@ -7,7 +7,7 @@
 
 #include "saca/base/core/units.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_page.h"
 
 namespace saca::report::drive_json_test {
 namespace {

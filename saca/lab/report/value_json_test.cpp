@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "saca/base/core/contract.h"
-#include "saca/lab/report/html_report.h"
+#include "saca/lab/report/record_page.h"
 
 namespace saca::report::value_json_test {
 namespace {

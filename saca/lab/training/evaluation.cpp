@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/lab/training/predict.h"
 
 namespace saca::training {
@@ -118,7 +118,7 @@ Result<ModelsByLeftOut> read_models(const fs::path& folder) {
   }
   ModelsByLeftOut models;
   for (const fs::path& file : files) {
-    const auto tensors = config::read_tensor_file(file);
+    const auto tensors = formats::read_tensor_file(file);
     if (!tensors.has_value()) {
       return tensors.error();
     }

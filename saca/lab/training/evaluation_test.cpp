@@ -116,7 +116,7 @@ class Models : public testing::Test {
   }
 
   void add(const std::string& file, const std::string& left_out, std::uint32_t seed) const {
-    config::Tensors tensors;
+    formats::Tensors tensors;
     intent::add_random_network(tensors, "0.", seed);
     tensors.tensors["networks"] = {{1}, {1.0F}};
     tensors.tensors["chain.start"] = {{3, 6}, std::vector<float>(18, 0.0F)};
@@ -127,7 +127,7 @@ class Models : public testing::Test {
     if (!left_out.empty()) {
       tensors.words["left_out"] = left_out;
     }
-    ASSERT_FALSE(write_file(folder_ / file, config::tensor_bytes(tensors)).has_value());
+    ASSERT_FALSE(write_file(folder_ / file, formats::tensor_bytes(tensors)).has_value());
   }
 
   const fs::path folder_ = fs::path(testing::TempDir()) / "saca_models_by_left_out";

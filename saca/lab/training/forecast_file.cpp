@@ -7,18 +7,18 @@
 #include <set>
 #include <string_view>
 
-#include "saca/base/config/checksummed_hdf5.h"
-#include "saca/base/config/hdf5_reader.h"
-#include "saca/base/config/hdf5_rows.h"
-#include "saca/base/config/hdf5_writer.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/checksummed_hdf5.h"
+#include "saca/base/formats/hdf5_reader.h"
+#include "saca/base/formats/hdf5_rows.h"
+#include "saca/base/formats/hdf5_writer.h"
 
 namespace saca::training {
 namespace {
 
 namespace fs = std::filesystem;
-using config::Hdf5Reader;
-using config::Hdf5Writer;
+using formats::Hdf5Reader;
+using formats::Hdf5Writer;
 
 constexpr std::string_view forecasts_format = "saca.forecasts/1";
 
@@ -38,11 +38,11 @@ std::vector<double> probabilities_of(const ForecastSet& set) {
 ForecastSet read_forecast_set(Hdf5Reader& reader) {
   ForecastSet set;
   set.model = reader.text("model");
-  const std::size_t size = config::row_size(reader, "num_frames");
+  const std::size_t size = formats::row_size(reader, "num_frames");
   const auto extents = reader.extents("probabilities");
   const std::size_t frames = !reader.problem() && extents.size() == 3 ? extents[1] : 0;
-  const auto parts = config::read_parts(reader, "num_frames", size, 1, frames);
-  set.names = config::read_lines(reader, "names", size);
+  const auto parts = formats::read_parts(reader, "num_frames", size, 1, frames);
+  set.names = formats::read_lines(reader, "names", size);
   std::set<std::string_view> once;
   for (const std::string& name : set.names) {
     if (!once.insert(name).second) {
@@ -91,17 +91,17 @@ std::optional<Error> write_forecasts(const fs::path& path, const ForecastSet& se
   }
   Hdf5Writer writer;
   writer.text("model", set.model);
-  config::write_lines(writer, "names", set.names);
-  config::write_row(writer, "num_frames", num_frames);
+  formats::write_lines(writer, "names", set.names);
+  formats::write_row(writer, "num_frames", num_frames);
   const std::vector<double> all = probabilities_of(set);
   writer.numbers<double>("probabilities",
                          {num_heads, static_cast<std::size_t>(frames), num_vehicle_classes},
                          {all.data()});
-  return config::write_sealed_hdf5(path, forecasts_format, writer);
+  return formats::write_sealed_hdf5(path, forecasts_format, writer);
 }
 
 Result<ForecastSet> read_forecasts(const fs::path& path) {
-  return config::read_sealed_hdf5(path, forecasts_format, read_forecast_set);
+  return formats::read_sealed_hdf5(path, forecasts_format, read_forecast_set);
 }
 
 Result<std::vector<Forecasts>> forecasts_of(const ForecastSet& set,

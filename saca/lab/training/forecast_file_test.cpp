@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "saca/base/config/checksummed_hdf5.h"
-#include "saca/base/config/hdf5_rows.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/checksummed_hdf5.h"
+#include "saca/base/formats/hdf5_rows.h"
 #include "saca/lab/training/sequences_for_test.h"
 
 namespace saca::training::forecast_file_test {
@@ -41,12 +41,12 @@ TEST(ForecastFile, GivesBackTheSameBits) {
 
 void write_by_hand(const std::vector<double>& num_frames, const std::vector<double>& numbers,
                    const std::vector<std::size_t>& extents, const std::vector<std::string>& names) {
-  config::Hdf5Writer writer;
+  formats::Hdf5Writer writer;
   writer.text("model", "m");
-  config::write_lines(writer, "names", names);
-  config::write_row(writer, "num_frames", num_frames);
+  formats::write_lines(writer, "names", names);
+  formats::write_row(writer, "num_frames", num_frames);
   writer.numbers<double>("probabilities", extents, {numbers.data()});
-  EXPECT_FALSE(config::write_sealed_hdf5(path_of_test(), "saca.forecasts/1", writer));
+  EXPECT_FALSE(formats::write_sealed_hdf5(path_of_test(), "saca.forecasts/1", writer));
 }
 
 std::string refusal(const std::vector<double>& num_frames, const std::vector<double>& numbers,

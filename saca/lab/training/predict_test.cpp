@@ -8,7 +8,7 @@ namespace saca::training::predict_test {
 namespace {
 
 TEST(Predicted, IsWhatAStreamTellsFrameByFrame) {
-  config::Tensors tensors;
+  formats::Tensors tensors;
   intent::add_random_network(tensors, "", 3);
   intent::Model model;
   model.networks.push_back(intent::Network::from(tensors, "", "w").value());

@@ -9,18 +9,18 @@
 #include <set>
 #include <string_view>
 
-#include "saca/base/config/checksummed_hdf5.h"
-#include "saca/base/config/hdf5_reader.h"
-#include "saca/base/config/hdf5_rows.h"
-#include "saca/base/config/hdf5_writer.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/checksummed_hdf5.h"
+#include "saca/base/formats/hdf5_reader.h"
+#include "saca/base/formats/hdf5_rows.h"
+#include "saca/base/formats/hdf5_writer.h"
 
 namespace saca::training {
 namespace {
 
 namespace fs = std::filesystem;
-using config::Hdf5Reader;
-using config::Hdf5Writer;
+using formats::Hdf5Reader;
+using formats::Hdf5Writer;
 using intent::Observation;
 
 constexpr std::string_view sequences_format = "saca.sequences/1";
@@ -118,20 +118,20 @@ void write_words(Hdf5Writer& writer, const char* name, const SequenceSet& set,
   for (const Sequence& sequence : set.sequences) {
     lines.push_back(sequence.*word);
   }
-  config::write_lines(writer, name, lines);
+  formats::write_lines(writer, name, lines);
 }
 
 /// All sequences' times one after another; a file without any has no such row.
 void write_times(Hdf5Writer& writer, const char* counts, const char* name, const SequenceSet& set,
                  std::vector<double> Sequence::*times) {
-  config::write_row(writer, counts,
-                    each(set.sequences, [&](const Sequence& s) { return (s.*times).size(); }));
+  formats::write_row(writer, counts,
+                     each(set.sequences, [&](const Sequence& s) { return (s.*times).size(); }));
   std::vector<double> row;
   for (const Sequence& sequence : set.sequences) {
     row.insert(row.end(), (sequence.*times).begin(), (sequence.*times).end());
   }
   if (!row.empty()) {
-    config::write_row(writer, name, row);
+    formats::write_row(writer, name, row);
   }
 }
 
@@ -140,10 +140,10 @@ void write_times(Hdf5Writer& writer, const char* counts, const char* name, const
 
 void read_times(Hdf5Reader& reader, const char* counts, const char* name, SequenceSet& set,
                 std::vector<double> Sequence::*times) {
-  const std::size_t size = reader.has(name) ? config::row_size(reader, name) : 0;
-  const auto parts = config::read_parts(reader, counts, set.sequences.size(), 0, size);
+  const std::size_t size = reader.has(name) ? formats::row_size(reader, name) : 0;
+  const auto parts = formats::read_parts(reader, counts, set.sequences.size(), 0, size);
   const std::vector<double> row =
-      size > 0 ? config::read_row(reader, name, size) : std::vector<double>();
+      size > 0 ? formats::read_row(reader, name, size) : std::vector<double>();
   auto from = row.begin();
   for (std::size_t i = 0; i < set.sequences.size() && !reader.problem(); ++i) {
     const auto to = from + static_cast<std::ptrdiff_t>(parts[i]);
@@ -154,21 +154,21 @@ void read_times(Hdf5Reader& reader, const char* counts, const char* name, Sequen
 
 void read_words(Hdf5Reader& reader, const char* name, SequenceSet& set,
                 std::string Sequence::*word) {
-  const auto lines = config::read_lines(reader, name, set.sequences.size());
+  const auto lines = formats::read_lines(reader, name, set.sequences.size());
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
     set.sequences[i].*word = lines[i];
   }
 }
 
 void read_frames(Hdf5Reader& reader, SequenceSet& set) {
-  const std::size_t size = config::row_size(reader, "frames/label");
+  const std::size_t size = formats::row_size(reader, "frames/label");
   const auto parts =
-      config::read_parts(reader, "sequences/num_frames", set.sequences.size(), 1, size);
-  const auto labels = config::read_counts(reader, "frames/label", size, 0);
-  const auto scored = config::read_flags(reader, "frames/scored", size);
+      formats::read_parts(reader, "sequences/num_frames", set.sequences.size(), 1, size);
+  const auto labels = formats::read_counts(reader, "frames/label", size, 0);
+  const auto scored = formats::read_flags(reader, "frames/scored", size);
   std::vector<Observation> seen(reader.problem() ? 0 : size);
   for (const Column& column : columns) {
-    const auto row = config::read_row(reader, column.name, seen.size(), config::Numbers::all);
+    const auto row = formats::read_row(reader, column.name, seen.size(), formats::Numbers::all);
     for (std::size_t t = 0; t < seen.size(); ++t) {
       seen[t].*column.value = row[t];
     }
@@ -188,8 +188,8 @@ void read_frames(Hdf5Reader& reader, SequenceSet& set) {
 
 SequenceSet read_set(Hdf5Reader& reader) {
   SequenceSet set;
-  const std::size_t size = config::row_size(reader, "sequences/simulated");
-  const auto simulated = config::read_flags(reader, "sequences/simulated", size);
+  const std::size_t size = formats::row_size(reader, "sequences/simulated");
+  const auto simulated = formats::read_flags(reader, "sequences/simulated", size);
   set.sequences.resize(reader.problem() ? 0 : size);
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
     set.sequences[i].simulated = simulated[i];
@@ -197,7 +197,7 @@ SequenceSet read_set(Hdf5Reader& reader) {
   read_words(reader, "sequences/names", set, &Sequence::name);
   read_words(reader, "sequences/sites", set, &Sequence::site);
   read_words(reader, "sequences/groups", set, &Sequence::group);
-  set.splits = config::read_lines(reader, "sequences/splits", set.sequences.size());
+  set.splits = formats::read_lines(reader, "sequences/splits", set.sequences.size());
   read_frames(reader, set);
   read_times(reader, "sequences/num_crossings", "crossing_times_s", set, &Sequence::crossing_times);
   read_times(reader, "sequences/num_brakings", "braking_times_s", set, &Sequence::braking_times);
@@ -238,31 +238,31 @@ std::optional<Error> write_sequences(const fs::path& path, const SequenceSet& se
   write_words(writer, "sequences/names", set, &Sequence::name);
   write_words(writer, "sequences/sites", set, &Sequence::site);
   write_words(writer, "sequences/groups", set, &Sequence::group);
-  config::write_lines(writer, "sequences/splits", set.splits);
-  config::write_row(writer, "sequences/simulated",
-                    each(all, [](const Sequence& s) { return s.simulated ? 1 : 0; }));
-  config::write_row(writer, "sequences/num_frames",
-                    each(all, [](const Sequence& s) { return s.labels.size(); }));
+  formats::write_lines(writer, "sequences/splits", set.splits);
+  formats::write_row(writer, "sequences/simulated",
+                     each(all, [](const Sequence& s) { return s.simulated ? 1 : 0; }));
+  formats::write_row(writer, "sequences/num_frames",
+                     each(all, [](const Sequence& s) { return s.labels.size(); }));
   writer.group("frames");
   for (const Column& column : columns) {
-    config::write_row(writer, column.name, each_frame(all, [&](const Sequence& s, std::size_t t) {
-                        return s.observations[t].*column.value;
-                      }));
+    formats::write_row(writer, column.name, each_frame(all, [&](const Sequence& s, std::size_t t) {
+                         return s.observations[t].*column.value;
+                       }));
   }
-  config::write_row(writer, "frames/label", each_frame(all, [](const Sequence& s, std::size_t t) {
-                      return static_cast<double>(s.labels[t]);
-                    }));
-  config::write_row(writer, "frames/scored", each_frame(all, [](const Sequence& s, std::size_t t) {
-                      return s.scored[t] ? 1.0 : 0.0;
-                    }));
+  formats::write_row(writer, "frames/label", each_frame(all, [](const Sequence& s, std::size_t t) {
+                       return static_cast<double>(s.labels[t]);
+                     }));
+  formats::write_row(writer, "frames/scored", each_frame(all, [](const Sequence& s, std::size_t t) {
+                       return s.scored[t] ? 1.0 : 0.0;
+                     }));
   write_times(writer, "sequences/num_crossings", "crossing_times_s", set,
               &Sequence::crossing_times);
   write_times(writer, "sequences/num_brakings", "braking_times_s", set, &Sequence::braking_times);
-  return config::write_sealed_hdf5(path, sequences_format, writer);
+  return formats::write_sealed_hdf5(path, sequences_format, writer);
 }
 
 Result<SequenceSet> read_sequences(const fs::path& path) {
-  return config::read_sealed_hdf5(path, sequences_format, read_set);
+  return formats::read_sealed_hdf5(path, sequences_format, read_set);
 }
 
 }  // namespace saca::training

@@ -8,10 +8,10 @@
 #include <functional>
 #include <limits>
 
-#include "saca/base/config/checksummed_hdf5.h"
-#include "saca/base/config/hdf5_rows.h"
 #include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
+#include "saca/base/formats/checksummed_hdf5.h"
+#include "saca/base/formats/hdf5_rows.h"
 #include "saca/lab/training/sequences_for_test.h"
 #include "saca/lab/training/simulated.h"
 
@@ -110,31 +110,31 @@ TEST(SequenceFile, RefusesDamageAndOtherFiles) {
 /// A file of two sequences with three frames in all.
 void write_by_hand(const std::function<bool(const std::string& name)>& leaves_out,
                    const std::vector<double>& num_frames, double label) {
-  config::Hdf5Writer writer;
+  formats::Hdf5Writer writer;
   writer.group("sequences");
   writer.group("frames");
   const std::vector<std::string> words{"a", "b"};
   for (const char* name :
        {"sequences/names", "sequences/sites", "sequences/groups", "sequences/splits"}) {
     if (!leaves_out(name)) {
-      config::write_lines(writer, name, words);
+      formats::write_lines(writer, name, words);
     }
   }
-  config::write_row(writer, "sequences/simulated", {0.0, 1.0});
-  config::write_row(writer, "sequences/num_frames", num_frames);
-  config::write_row(writer, "sequences/num_crossings", {0.0, 0.0});
-  config::write_row(writer, "sequences/num_brakings", {0.0, 0.0});
+  formats::write_row(writer, "sequences/simulated", {0.0, 1.0});
+  formats::write_row(writer, "sequences/num_frames", num_frames);
+  formats::write_row(writer, "sequences/num_crossings", {0.0, 0.0});
+  formats::write_row(writer, "sequences/num_brakings", {0.0, 0.0});
   for (const char* name :
        {"frames/speed_mps", "frames/acceleration_mps2", "frames/yaw_rate_radps", "frames/offset_m",
         "frames/lateral_speed_mps", "frames/heading_rad", "frames/lane_width_m", "frames/gap_m",
         "frames/gap_speed_mps", "frames/steering_rad", "frames/throttle", "frames/brake",
         "frames/scored"}) {
     if (!leaves_out(name)) {
-      config::write_row(writer, name, {1.0, 1.0, 1.0});
+      formats::write_row(writer, name, {1.0, 1.0, 1.0});
     }
   }
-  config::write_row(writer, "frames/label", {0.0, 1.0, label});
-  EXPECT_FALSE(config::write_sealed_hdf5(path_of_test(), "saca.sequences/1", writer));
+  formats::write_row(writer, "frames/label", {0.0, 1.0, label});
+  EXPECT_FALSE(formats::write_sealed_hdf5(path_of_test(), "saca.sequences/1", writer));
 }
 
 std::string refusal_with(const std::function<bool(const std::string& name)>& leaves_out,

@@ -11,8 +11,8 @@
 #include "saca/onboard/reflex/atlas_judge.h"
 #include "saca/onboard/reflex/plan_cache.h"
 #include "saca/onboard/reflex/supervisor.h"
-#include "saca/onboard/reflex/threat.h"
 #include "saca/onboard/reflex/track_confirmation.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/onboard/reflex/under_way.h"
 #include "saca/onboard/reflex/verdict.h"
 

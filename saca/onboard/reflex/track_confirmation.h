@@ -8,7 +8,7 @@
 
 #include "saca/base/core/static_vector.h"
 #include "saca/base/world/scene.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 
 namespace saca::reflex {
 

@@ -1,9 +1,16 @@
 #include "saca/thinking/arbitration/event.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <optional>
+
+#include "tests/support/scenes.h"
 
 namespace saca::arbitration::event_test {
 namespace {
+
+using testing::HasSubstr;
 
 // docs/formats.md promises these words.
 TEST(Event, HasTheNamesOfTheFormat) {
@@ -19,6 +26,19 @@ TEST(Event, SaysHowManyWereNotTold) {
   EXPECT_EQ(event.kind, EventKind::fault);
   EXPECT_EQ(event.time, 2.5);
   EXPECT_EQ(event.text.substr(0, 8), "3 events");
+}
+
+TEST(Event, SaysThatAndWhyItActsBeforeT1) {
+  EXPECT_THAT(trigger_text(test::car(1, {50.0, 0.0}), 2.4, 0.02),
+              testing::AllOf(HasSubstr("before T1"), HasSubstr("0.0200 more")));
+  EXPECT_THAT(trigger_text(test::car(1, {26.0, 0.0}), 1.3, std::nullopt),
+              testing::Not(HasSubstr("before T1")));
+}
+
+TEST(Event, SaysWhatCannotBeDriven) {
+  reflex::Decision decision{.plan = manoeuvre::full_braking};
+  decision.refused = {{manoeuvre::PolicyId::aes_left, std::nullopt}, manoeuvre::Refusal::speed};
+  EXPECT_THAT(decision_text(decision), HasSubstr("AES-L cannot be driven from here (speed)"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "saca/base/core/clock.h"
 #include "saca/onboard/reflex/plan_cache.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/arbitration/event.h"
 #include "saca/thinking/intent/observer.h"
 #include "saca/thinking/language_model/language_model.h"

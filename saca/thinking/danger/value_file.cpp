@@ -13,11 +13,11 @@
 #include <string_view>
 #include <utility>
 
-#include "saca/base/config/checksummed_file.h"
-#include "saca/base/config/hdf5_reader.h"
-#include "saca/base/config/hdf5_writer.h"
 #include "saca/base/core/contract.h"
 #include "saca/base/core/names.h"
+#include "saca/base/formats/checksummed_file.h"
+#include "saca/base/formats/hdf5_reader.h"
+#include "saca/base/formats/hdf5_writer.h"
 
 namespace saca::danger {
 namespace {
@@ -60,7 +60,7 @@ std::optional<std::string> wrong_times(const std::vector<double>& times) {
 // --- writing
 // --------------------------------------------------------------------------------------
 
-void write_axis(config::Hdf5Writer& writer, const std::string& where, const Axis& axis) {
+void write_axis(formats::Hdf5Writer& writer, const std::string& where, const Axis& axis) {
   writer.group(where);
   writer.attribute(where, "name", axis.name);
   writer.attribute(where, "first", axis.first);
@@ -79,7 +79,7 @@ std::size_t largest_size(const Solution& solved) {
   return numbers + numbers / 32 + (std::size_t{1} << 18);
 }
 
-void write_parts(config::Hdf5Writer& writer, const Solution& solved) {
+void write_parts(formats::Hdf5Writer& writer, const Solution& solved) {
   writer.attribute(".", "format", std::string(file_format));
   writer.attribute(".", "complete", std::int32_t{solved.complete});
   writer.attribute(".", "scheme", solved.scheme);
@@ -106,7 +106,7 @@ void write_parts(config::Hdf5Writer& writer, const Solution& solved) {
 // --- reading
 // --------------------------------------------------------------------------------------
 
-Axis read_axis(config::Hdf5Reader& reader, const std::string& where) {
+Axis read_axis(formats::Hdf5Reader& reader, const std::string& where) {
   Axis axis{.name = reader.text_attribute(where, "name"),
             .first = reader.number(where, "first"),
             .last = reader.number(where, "last"),
@@ -125,7 +125,7 @@ Axis read_axis(config::Hdf5Reader& reader, const std::string& where) {
   return axis;
 }
 
-Grid read_grid(config::Hdf5Reader& reader) {
+Grid read_grid(formats::Hdf5Reader& reader) {
   Grid grid;
   const std::int32_t dimensions = reader.whole(".", "dimensions", 1, std::int32_t{max_dimensions});
   for (std::int32_t d = 0; d < dimensions && !reader.problem(); ++d) {
@@ -149,7 +149,7 @@ Grid read_grid(config::Hdf5Reader& reader) {
   return grid;
 }
 
-std::vector<double> read_times(config::Hdf5Reader& reader) {
+std::vector<double> read_times(formats::Hdf5Reader& reader) {
   const std::vector<std::size_t> came = reader.extents("times");
   if (reader.problem()) {
     return {};
@@ -168,7 +168,7 @@ std::vector<double> read_times(config::Hdf5Reader& reader) {
 }
 
 template <class Real>
-Snapshots<Real> read_snapshots(config::Hdf5Reader& reader, const Solution& solved) {
+Snapshots<Real> read_snapshots(formats::Hdf5Reader& reader, const Solution& solved) {
   const std::vector<std::size_t> wanted = extents_of(solved.grid, solved.times.size());
   reader.want_numbers<Real>("values", wanted);
   if (reader.problem()) {
@@ -183,7 +183,7 @@ Snapshots<Real> read_snapshots(config::Hdf5Reader& reader, const Solution& solve
   return all;
 }
 
-std::vector<float> read_error(config::Hdf5Reader& reader, const Grid& grid) {
+std::vector<float> read_error(formats::Hdf5Reader& reader, const Grid& grid) {
   if (!reader.has("error")) {
     return {};
   }
@@ -196,7 +196,7 @@ std::vector<float> read_error(config::Hdf5Reader& reader, const Grid& grid) {
 }
 
 /// What `reader` has no problem with.
-Solution read_parts(config::Hdf5Reader& reader) {
+Solution read_parts(formats::Hdf5Reader& reader) {
   Solution solved;
   const std::string format = reader.text_attribute(".", "format");
   if (!reader.problem() && format != file_format) {
@@ -256,21 +256,21 @@ std::optional<Error> write_solved(const fs::path& path, const Solution& solved) 
         }
       },
       solved.values);
-  config::Hdf5Writer writer(largest_size(solved));
+  formats::Hdf5Writer writer(largest_size(solved));
   write_parts(writer, solved);
   const std::optional<std::string_view> body = writer.bytes();
   if (!body) {
     return Error{Error::Code::unwritable, path.string() + ": HDF5 cannot make the file in memory"};
   }
-  return config::write_checksummed(path, file_format, *body);
+  return formats::write_checksummed(path, file_format, *body);
 }
 
 Result<Solution> read_solved(const fs::path& path) {
-  if (const auto problem = config::verify_checksum(path, file_format)) {
+  if (const auto problem = formats::verify_checksum(path, file_format)) {
     return *problem;
   }
   try {
-    config::Hdf5Reader reader(path.string(), path);
+    formats::Hdf5Reader reader(path.string(), path);
     Solution solved = read_parts(reader);
     if (reader.problem()) {
       return *reader.problem();

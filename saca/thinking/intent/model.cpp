@@ -39,11 +39,11 @@ Crf chain(const std::vector<float>& start, const std::vector<float>& transition,
 }
 
 /// The calibrations, each checked.
-Result<std::array<Calibration, num_horizons>> calibrations_from(const config::Tensors& tensors,
+Result<std::array<Calibration, num_horizons>> calibrations_from(const formats::Tensors& tensors,
                                                                 std::string_view source) {
-  const auto inverse_temperature = config::take(tensors, "sharpness", {num_horizons}, source);
-  const auto bias = config::take(tensors, "bias", {num_horizons, num_classes}, source);
-  const auto naming = config::take(tensors, "naming", {num_horizons, num_classes}, source);
+  const auto inverse_temperature = formats::take(tensors, "sharpness", {num_horizons}, source);
+  const auto bias = formats::take(tensors, "bias", {num_horizons, num_classes}, source);
+  const auto naming = formats::take(tensors, "naming", {num_horizons, num_classes}, source);
   for (const auto* each : {&inverse_temperature, &bias, &naming}) {
     if (!each->has_value()) {
       return each->error();
@@ -95,8 +95,8 @@ std::size_t named_class(const Scores& naming, const Scores& probabilities) {
   return named;
 }
 
-Result<Model> model_from(const config::Tensors& tensors, std::string_view source) {
-  const auto num = config::take(tensors, "networks", {1}, source);
+Result<Model> model_from(const formats::Tensors& tensors, std::string_view source) {
+  const auto num = formats::take(tensors, "networks", {1}, source);
   if (!num.has_value()) {
     return num.error();
   }
@@ -113,9 +113,9 @@ Result<Model> model_from(const config::Tensors& tensors, std::string_view source
     }
     model.networks.push_back(std::move(network).value());
   }
-  const auto start = config::take(tensors, "chain.start", {num_horizons, num_classes}, source);
+  const auto start = formats::take(tensors, "chain.start", {num_horizons, num_classes}, source);
   const auto transition =
-      config::take(tensors, "chain.transition", {num_horizons, num_classes, num_classes}, source);
+      formats::take(tensors, "chain.transition", {num_horizons, num_classes, num_classes}, source);
   for (const auto* each : {&start, &transition}) {
     if (!each->has_value()) {
       return each->error();
@@ -143,7 +143,7 @@ std::uint64_t digest(const Model& model) {
 }
 
 Result<Model> read_model(const std::filesystem::path& path) {
-  const auto tensors = config::read_tensor_file(path);
+  const auto tensors = formats::read_tensor_file(path);
   if (!tensors.has_value()) {
     return tensors.error();
   }

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/thinking/intent/crf.h"
 #include "saca/thinking/intent/network.h"
 
@@ -62,7 +62,7 @@ struct Model {
 /// and of the calibrations "sharpness" (num_horizons: the inverse temperature), "bias" and "naming"
 /// (num_horizons x num_classes).
 /// @return  Error::Code::malformed, naming source, tensor, wanted and got
-[[nodiscard]] Result<Model> model_from(const config::Tensors& tensors, std::string_view source);
+[[nodiscard]] Result<Model> model_from(const formats::Tensors& tensors, std::string_view source);
 
 /// @return  as read_file and model_from
 [[nodiscard]] Result<Model> read_model(const std::filesystem::path& path);

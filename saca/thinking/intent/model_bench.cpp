@@ -16,7 +16,7 @@ void sixty_four_vehicles(benchmark::State& state) {
   const auto num_networks = static_cast<std::size_t>(state.range(0));
   Model model;
   for (std::size_t i = 0; i < num_networks; ++i) {
-    config::Tensors tensors;
+    formats::Tensors tensors;
     add_random_network(tensors, "", static_cast<std::uint32_t>(i));
     model.networks.push_back(Network::from(tensors, "", "random").value());
   }

@@ -20,23 +20,23 @@ using testing::HasSubstr;
 static_assert(std::is_trivially_copyable_v<Stream>);
 
 /// The same numbers for each horizon.
-config::Tensor symmetric(std::array<float, num_classes> numbers) {
-  config::Tensor tensor{{num_horizons, num_classes}, {}};
+formats::Tensor symmetric(std::array<float, num_classes> numbers) {
+  formats::Tensor tensor{{num_horizons, num_classes}, {}};
   for (std::size_t h = 0; h < num_horizons; ++h) {
     tensor.values.insert(tensor.values.end(), numbers.begin(), numbers.end());
   }
   return tensor;
 }
 
-config::Tensors random_tensors(std::uint32_t seed, int num_networks) {
-  config::Tensors tensors;
+formats::Tensors random_tensors(std::uint32_t seed, int num_networks) {
+  formats::Tensors tensors;
   for (int i = 0; i < num_networks; ++i) {
     add_random_network(tensors, std::to_string(i) + ".", seed + static_cast<std::uint32_t>(i));
   }
   std::mt19937 random(seed);
   std::normal_distribution<float> normal(0.0F, 1.0F);
-  config::Tensor start{{num_horizons, num_classes}, {}};
-  config::Tensor transition{{num_horizons, num_classes, num_classes}, {}};
+  formats::Tensor start{{num_horizons, num_classes}, {}};
+  formats::Tensor transition{{num_horizons, num_classes, num_classes}, {}};
   start.values.resize(num_horizons * num_classes);
   transition.values.resize(num_horizons * num_classes * num_classes);
   for (auto* each : {&start.values, &transition.values}) {
@@ -72,7 +72,7 @@ std::vector<Observation> random_drive(std::uint32_t seed, std::size_t num) {
 }
 
 TEST(Stream, TellsTheSharpenedMarginalOfTheMeanEmissionsSoFar) {
-  const config::Tensors tensors = random_tensors(5, 2);
+  const formats::Tensors tensors = random_tensors(5, 2);
   const auto model = model_from(tensors, "w");
   ASSERT_TRUE(model.has_value()) << model.error().message;
   Stream stream;
@@ -135,7 +135,7 @@ TEST(Stream, IsADistributionWhateverIsSeen) {
 
 TEST(Stream, OfAMirroredDriveTellsTheMirrorImage) {
   // Only of chains that are symmetric themselves.
-  config::Tensors tensors = random_tensors(6, 1);
+  formats::Tensors tensors = random_tensors(6, 1);
   for (float& each : tensors.tensors["chain.start"].values) {
     each = 0.0F;
   }
@@ -182,14 +182,14 @@ TEST(Model, NobodyChangesSidesAtOnce) {
 }
 
 TEST(Model, WeightsThatDifferInOnePlaceHaveAnotherDigest) {
-  const config::Tensors tensors = random_tensors(3, 2);
+  const formats::Tensors tensors = random_tensors(3, 2);
   const std::uint64_t whole = digest(model_from(tensors, "w").value());
   EXPECT_EQ(digest(model_from(tensors, "w").value()), whole);
   for (const auto& [name, tensor] : tensors.tensors) {
     if (name == "networks") {
       continue;
     }
-    config::Tensors other = tensors;
+    formats::Tensors other = tensors;
     float& last = other.tensors[name].values.back();
     last = std::nextafter(last, 0.0F);
     EXPECT_NE(digest(model_from(other, "w").value()), whole) << name;
@@ -197,7 +197,7 @@ TEST(Model, WeightsThatDifferInOnePlaceHaveAnotherDigest) {
 }
 
 TEST(Model, RefusesFilesThatAreNone) {
-  config::Tensors tensors = random_tensors(1, 1);
+  formats::Tensors tensors = random_tensors(1, 1);
   tensors.tensors["networks"].values = {5.0F};
   EXPECT_THAT(model_from(tensors, "f").error().message, HasSubstr("want 1 to 4, got 5"));
   tensors.tensors["networks"].values = {2.0F};

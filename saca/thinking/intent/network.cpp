@@ -33,14 +33,14 @@ Scores mirrored(const Scores& scores) {
   return {scores[0], scores[2], scores[1], scores[3], scores[5], scores[4]};
 }
 
-Result<DenseLayer> DenseLayer::from(const config::Tensors& tensors, const std::string& name,
+Result<DenseLayer> DenseLayer::from(const formats::Tensors& tensors, const std::string& name,
                                     std::size_t rows, std::size_t columns,
                                     std::string_view source) {
-  auto taken = config::take_layer(tensors, name, rows, columns, source);
+  auto taken = formats::take_layer(tensors, name, rows, columns, source);
   if (!taken.has_value()) {
     return taken.error();
   }
-  config::Layer layer = std::move(taken).value();
+  formats::Layer layer = std::move(taken).value();
   DenseLayer result{.num_columns = columns, .weight = {}, .bias = std::move(layer.bias)};
   const std::size_t num_tiles = (rows + tile - 1) / tile;
   result.bias.resize(num_tiles * tile);
@@ -54,7 +54,7 @@ Result<DenseLayer> DenseLayer::from(const config::Tensors& tensors, const std::s
   return result;
 }
 
-Result<Encoder> Encoder::from(const config::Tensors& tensors, const std::string& prefix,
+Result<Encoder> Encoder::from(const formats::Tensors& tensors, const std::string& prefix,
                               std::string_view source) {
   auto input = DenseLayer::from(tensors, prefix + "input", width, num_features, source);
   auto lstm = DenseLayer::from(tensors, prefix + "lstm", 4 * width, 2 * width, source);
@@ -69,7 +69,7 @@ Result<Encoder> Encoder::from(const config::Tensors& tensors, const std::string&
   return encoder;
 }
 
-Result<Network> Network::from(const config::Tensors& tensors, const std::string& prefix,
+Result<Network> Network::from(const formats::Tensors& tensors, const std::string& prefix,
                               std::string_view source) {
   auto encoder = Encoder::from(tensors, prefix, source);
   if (!encoder.has_value()) {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/result.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/thinking/intent/crf.h"
 #include "saca/thinking/intent/features.h"
 
@@ -29,8 +29,8 @@ struct DenseLayer {
   std::vector<float> bias;
 
   /// From the tensors `name` + ".weight" (rows x columns) and ".bias" (rows).
-  /// @return  Error::Code::malformed, as config::take
-  [[nodiscard]] static Result<DenseLayer> from(const config::Tensors& tensors,
+  /// @return  Error::Code::malformed, as formats::take
+  [[nodiscard]] static Result<DenseLayer> from(const formats::Tensors& tensors,
                                                const std::string& name, std::size_t rows,
                                                std::size_t columns, std::string_view source);
 };
@@ -58,8 +58,8 @@ class Encoder {
   /// From the tensors `prefix` + "input.weight" (width x num_features), "input.bias" (width),
   /// "lstm.weight" (4 width x 2 width, columns u, then h; gates in, forget, cell, out) and
   /// "lstm.bias" (4 width).
-  /// @return  Error::Code::malformed, as config::take
-  [[nodiscard]] static Result<Encoder> from(const config::Tensors& tensors,
+  /// @return  Error::Code::malformed, as formats::take
+  [[nodiscard]] static Result<Encoder> from(const formats::Tensors& tensors,
                                             const std::string& prefix, std::string_view source);
 
   /// One step; allocates nothing.
@@ -83,8 +83,8 @@ class Network {
 
   /// From the tensors of an encoder, `prefix` + "output.weight" (num_emissions x 2 width, columns
   /// h, then u) and "output.bias".
-  /// @return  Error::Code::malformed, as config::take
-  [[nodiscard]] static Result<Network> from(const config::Tensors& tensors,
+  /// @return  Error::Code::malformed, as formats::take
+  [[nodiscard]] static Result<Network> from(const formats::Tensors& tensors,
                                             const std::string& prefix, std::string_view source);
 
   /// One step; allocates nothing.

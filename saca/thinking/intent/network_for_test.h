@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "saca/base/config/tensors.h"
+#include "saca/base/formats/tensors.h"
 #include "saca/thinking/intent/network.h"
 
 namespace saca::intent {
 
 /// Random weights under `prefix`.
-inline void add_random_network(config::Tensors& tensors, const std::string& prefix,
+inline void add_random_network(formats::Tensors& tensors, const std::string& prefix,
                                std::uint32_t seed) {
   constexpr std::size_t w = Network::width;
   std::mt19937 random(seed);

@@ -15,7 +15,7 @@ constexpr std::size_t w = Network::width;
 
 /// The formulas of the header, one number after the other, in double.
 struct SlowNetwork {
-  config::Tensors tensors;
+  formats::Tensors tensors;
   std::vector<double> h = std::vector<double>(w, 0.0);
   std::vector<double> c = std::vector<double>(w, 0.0);
 
@@ -65,7 +65,7 @@ std::vector<Features> random_features(std::uint32_t seed, std::size_t num) {
 }
 
 TEST(Network, ComputesTheFormulasOfItsHeader) {
-  config::Tensors tensors;
+  formats::Tensors tensors;
   add_random_network(tensors, "", 11);
   const auto network = Network::from(tensors, "", "w");
   ASSERT_TRUE(network.has_value()) << network.error().message;
@@ -88,7 +88,7 @@ TEST(Network, ComputesTheFormulasOfItsHeader) {
 }
 
 TEST(Network, TellsTheMirrorImageOfAMirroredWorld) {
-  config::Tensors tensors;
+  formats::Tensors tensors;
   add_random_network(tensors, "a.", 5);
   const auto network = Network::from(tensors, "a.", "w");
   ASSERT_TRUE(network.has_value());
@@ -104,7 +104,7 @@ TEST(Network, TellsTheMirrorImageOfAMirroredWorld) {
 }
 
 TEST(Network, RefusesTensorsOfOtherShapes) {
-  config::Tensors tensors;
+  formats::Tensors tensors;
   add_random_network(tensors, "", 1);
   tensors.tensors["lstm.bias"].shape = {3};
   EXPECT_THAT(Network::from(tensors, "", "file").error().message,

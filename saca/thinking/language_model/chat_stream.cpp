@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "saca/base/config/json_text.h"
+#include "saca/base/formats/json_text.h"
 
 namespace saca::language_model {
 namespace {
@@ -80,14 +80,14 @@ std::string json_text(const ChatQuestion& question) {
 }
 
 std::string server_message(std::string_view body) {
-  const auto json = config::parse_json<ChatJson>(body);
+  const auto json = formats::parse_json<ChatJson>(body);
   return (json.has_value() ? message_in(json.value()) : std::nullopt).value_or(std::string(body));
 }
 
 // Takes one event.
 // @return  what is wrong with it; empty when nothing is
 std::string ChatStream::problem_in(std::string_view data) {
-  const auto read = config::parse_json<ChatJson>(data);
+  const auto read = formats::parse_json<ChatJson>(data);
   if (!read.has_value() || !read.value().is_object()) {
     return "want a JSON object in each event, got " + std::string(data);
   }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "saca/base/config/json_text.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/thinking/language_model/reply.h"
 
 namespace saca::language_model::protocol {
@@ -76,7 +76,7 @@ const Json& list_at(const Json& object, const std::string& key) {
 }
 
 Json parsed(std::string_view line) {
-  auto read = config::parse_json(line);
+  auto read = formats::parse_json(line);
   if (!read.has_value()) {
     throw ParseFailure{"line: " + read.error().message};
   }

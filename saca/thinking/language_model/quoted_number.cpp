@@ -5,14 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "saca/thinking/language_model/words.h"
+
 namespace saca::language_model {
 namespace {
 
 bool is_numeral(char c) {
   return c >= '0' && c <= '9';
-}
-bool is_name_char(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 char small(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -56,9 +55,9 @@ std::string unit_at(std::string_view rest) {
   }
   constexpr std::array<std::string_view, 4> units{"m/s", "m", "s", "%"};
   for (const std::string_view unit : units) {
-    const bool ends = rest.size() == unit.size() ||
-                      (rest.size() > unit.size() && !is_name_char(rest[unit.size()]) &&
-                       !is_numeral(rest[unit.size()]) && rest[unit.size()] != '/');
+    const bool ends =
+        rest.size() == unit.size() ||
+        (rest.size() > unit.size() && !is_word_char(rest[unit.size()]) && rest[unit.size()] != '/');
     if (rest.starts_with(unit) && ends) {
       return std::string(unit);
     }
@@ -71,8 +70,7 @@ bool begins_with_word(std::string_view text, std::string_view word) {
   return text.size() >= word.size() &&
          std::equal(word.begin(), word.end(), text.begin(),
                     [](char a, char b) { return a == small(b); }) &&
-         (text.size() == word.size() ||
-          (!is_name_char(text[word.size()]) && !is_numeral(text[word.size()])));
+         (text.size() == word.size() || !is_word_char(text[word.size()]));
 }
 
 /// @param rest  what follows the number
@@ -148,7 +146,7 @@ std::vector<QuotedNumber> quoted_numbers(std::string_view text) {
     if (i + 1 < text.size() && text[i] == '.' && is_numeral(text[i + 1])) {
       i = end_of_digits(text, i + 1);
     }
-    const bool in_a_name = begin > 0 && is_name_char(text[begin - 1]);
+    const bool in_a_name = begin > 0 && is_word_char(text[begin - 1]);
     const bool in_a_list = choice_end != std::string_view::npos && i == begin + 1 &&
                            choice_end + joint_at(text.substr(choice_end)).size() == begin;
     if (in_a_name || is_label(text, begin, i)) {

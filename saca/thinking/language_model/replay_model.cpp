@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "saca/base/config/json_text.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/printable.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/thinking/language_model/reply.h"
 
 namespace saca::language_model {
@@ -100,7 +100,7 @@ Result<RecordedReplies> parse_replies(std::string_view text, std::string_view so
     return Error{Error::Code::malformed, fmt::format("{}: {}", source, what)};
   };
   try {
-    const auto read = config::parse_json<Json>(text);
+    const auto read = formats::parse_json<Json>(text);
     if (!read.has_value()) {
       return refuse(read.error().message);
     }

@@ -5,15 +5,15 @@
 #include <set>
 #include <utility>
 
-#include "saca/base/config/json_lines.h"
-#include "saca/base/config/json_reader.h"
+#include "saca/base/formats/json_lines.h"
+#include "saca/base/formats/json_reader.h"
 #include "saca/thinking/memory/scene_json.h"
 
 namespace saca::memory {
 namespace {
 
 using nlohmann::json;
-using Reader = config::JsonReader;
+using Reader = formats::JsonReader;
 
 constexpr std::string_view case_schema = "saca.case/1";
 constexpr std::string_view file_schema = "saca.cases/1";
@@ -248,7 +248,7 @@ Result<Case> case_from_json(const json& document) {
 }
 
 std::string cases_text(std::span<const Case> cases) {
-  std::string text = config::first_json_line(file_schema, "cases", cases.size());
+  std::string text = formats::first_json_line(file_schema, "cases", cases.size());
   for (const Case& one : cases) {
     text += to_json(one).dump() + '\n';
   }
@@ -258,7 +258,7 @@ std::string cases_text(std::span<const Case> cases) {
 Result<std::vector<Case>> cases_from_text(std::string_view text, const std::string& name) {
   std::vector<Case> cases;
   std::set<match::CaseId> ids;
-  const auto problem = config::read_json_lines(
+  const auto problem = formats::read_json_lines(
       text, name, file_schema, "cases", [&](const json& document) -> std::optional<std::string> {
         Result<Case> one = case_from_json(document);
         if (!one.has_value()) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "saca/base/config/json_text.h"
+#include "saca/base/formats/json_text.h"
 #include "saca/thinking/memory/case_json.h"
 #include "saca/thinking/memory/scene_json.h"
 
@@ -75,7 +75,7 @@ class RowReader {
   }
 
   world::Scene scene(Place place) {
-    const auto parsed = config::parse_json(text(place));
+    const auto parsed = formats::parse_json(text(place));
     if (!parsed.has_value()) {
       reject(place, parsed.error().message);
       return {};
@@ -90,7 +90,7 @@ class RowReader {
 
   /// What version 2 did not know, and the rules of a whole case.
   void read_details(Case& one) {
-    const auto parsed = config::parse_json(text(details_at));
+    const auto parsed = formats::parse_json(text(details_at));
     if (!parsed.has_value()) {
       reject(details_at, parsed.error().message);
     } else if (const auto problem = memory::read_details(parsed.value(), one)) {

@@ -9,14 +9,14 @@
 #include <string_view>
 #include <utility>
 
-#include "saca/base/config/json_reader.h"
 #include "saca/base/core/contract.h"
+#include "saca/base/formats/json_reader.h"
 
 namespace saca::memory {
 namespace {
 
 using nlohmann::json;
-using Reader = config::JsonReader;
+using Reader = formats::JsonReader;
 using world::Actor;
 using world::EgoState;
 using world::Footprint;

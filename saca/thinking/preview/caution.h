@@ -1,7 +1,7 @@
 #pragma once
 
 #include "saca/base/world/scene.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/intent/motion.h"
 #include "saca/thinking/intent/observer.h"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/intent/observer.h"
 #include "saca/thinking/preview/policy_facts.h"
 #include "saca/thinking/preview/situation.h"

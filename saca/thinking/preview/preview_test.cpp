@@ -12,7 +12,7 @@
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/ego.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/preview/forecast_for_test.h"
 #include "tests/support/scenes.h"

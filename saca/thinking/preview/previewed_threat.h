@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "saca/base/world/scene.h"
-#include "saca/onboard/reflex/threat.h"
+#include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/intent/motion.h"
 #include "saca/thinking/intent/observer.h"
 

@@ -20,7 +20,7 @@ using LaneImage = lanes::Lane<float>;
 using LaneStateVector = vehicle::equations::StateVector<float>;
 constexpr std::size_t numbers_per_lane = sizeof(LaneImage) / sizeof(float);
 
-lanes::Kernel kernel_for(SimdLevel level) {
+lanes::Kernel kernel_for([[maybe_unused]] SimdLevel level) {
 #if defined(__x86_64__)
   if (level == SimdLevel::avx2) {
     return lanes::kernel_avx2();

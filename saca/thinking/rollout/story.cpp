@@ -5,7 +5,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/onboard/collision/approach.h"
-#include "saca/onboard/forecast/expected_harm.h"
+#include "saca/onboard/forecast/chain_harm.h"
 #include "saca/thinking/rollout/concatenated.h"
 
 namespace saca::rollout {

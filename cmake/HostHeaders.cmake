@@ -1,0 +1,18 @@
+# For another processor: libraries that are headers alone are taken from this machine's, and GoogleTest from its sources.
+# Nothing else of the host's headers is looked at.
+set(host_headers ${PROJECT_BINARY_DIR}/host_headers)
+file(MAKE_DIRECTORY ${host_headers})
+foreach(library fmt toml++ nlohmann)
+  if(NOT IS_DIRECTORY /usr/include/${library})
+    message(FATAL_ERROR "/usr/include/${library} is missing: run tools/setup.sh")
+  endif()
+  file(CREATE_LINK /usr/include/${library} ${host_headers}/${library} SYMBOLIC)
+endforeach()
+foreach(target fmt::fmt tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} INTERFACE ${host_headers})
+endforeach()
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+if(SACA_DEVELOPER)
+  add_subdirectory(/usr/src/googletest ${PROJECT_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
+endif()

@@ -1,0 +1,51 @@
+#include "saca/onboard/reflex/encounter.h"
+
+namespace saca::reflex {
+
+bool Encounter::look(const world::Scene& scene, const Reflex& answer) {
+  if (answer.refused_scene) {
+    return false;  // what is under way goes on
+  }
+  grip_ = scene.grip;
+  if (answer.triggered || answer.switched) {
+    begin(answer.plan, scene);
+  }
+  constexpr double rest = 0.1;  // [m/s]
+  if (finished_ && execution_ && norm(scene.ego.v_B) >= rest) {
+    execution_.reset();
+  }
+  meets_somebody_ = meets_somebody_ || answer.threat || execution_;
+  if (!meets_somebody_ || answer.threat || (execution_ && !finished_)) {
+    quiet_.reset();
+    return false;
+  }
+  quiet_ = quiet_.value_or(scene.time);
+  return scene.time >= *quiet_ + quiet_time;
+}
+
+void Encounter::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
+  finished_ = false;
+  if (plan.policy == manoeuvre::PolicyId::no_intervention) {
+    execution_.reset();
+    return;
+  }
+  execution_.emplace(*car_, plan, scene);
+}
+
+vehicle::Command Encounter::control(const vehicle::VehicleState& state, double dt) noexcept {
+  if (!execution_) {
+    return {};
+  }
+  const vehicle::Command command = execution_->control(state, grip_, dt);
+  finished_ = execution_->finished();
+  return command;
+}
+
+void Encounter::begin_anew() noexcept {
+  execution_.reset();
+  quiet_.reset();
+  meets_somebody_ = false;
+  finished_ = false;
+}
+
+}  // namespace saca::reflex
