@@ -79,6 +79,12 @@ int package(const AtlasOptions& options, const std::string& package_file) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
+  const std::string& name = inputs.value().car_name;
+  if (name.size() > reflex::longest_package_name) {
+    return refused(Error{Error::Code::out_of_range,
+                         fmt::format("{}: want a car's name of at most {} bytes, got {}", name,
+                                     reflex::longest_package_name, name.size())});
+  }
   const fs::path file = file_of(options, inputs.value());
   const auto atlas = read_file(file, many_bytes);
   const auto right = atlas.has_value()
@@ -88,12 +94,6 @@ int package(const AtlasOptions& options, const std::string& package_file) {
     Error error = right.error();
     error.message += " (`saca atlas build --car " + options.car + "` makes it)";
     return refused(error);
-  }
-  const std::string& name = inputs.value().car_name;
-  if (name.size() > reflex::longest_package_name) {
-    return refused(Error{Error::Code::out_of_range,
-                         fmt::format("{}: want a car's name of at most {} bytes, got {}", name,
-                                     reflex::longest_package_name, name.size())});
   }
   const fs::path output =
       package_file.empty() ? fs::path(name + ".vehicle") : fs::path(package_file);
