@@ -144,7 +144,8 @@ def test_a_package_needs_an_atlas_of_its_car(own_atlas, tmp_path):
     assert "own.atlas: is of another car" in other and "saca atlas build --car midsize_suv" in other
     assert "none.atlas" in one_error(saca("atlas", "package", "none.atlas", cwd=tmp_path), BAD_INPUT)
     long_name = tmp_path / ("a" * 64 + ".toml")
-    shutil.copy(ROOT / "data/vehicles/compact_rwd_ev.toml", long_name)
+    for ending in (".toml", ".tuning.toml"):
+        shutil.copy(ROOT / f"data/vehicles/compact_rwd_ev{ending}", long_name.with_suffix(ending))
     told = one_error(saca("atlas", "package", own_atlas, "--car", long_name, cwd=tmp_path), BAD_INPUT)
     assert "want a car's name of at most 63 bytes, got 64" in told
     (tmp_path / "file").write_text("")
