@@ -26,6 +26,10 @@ for package in tomlplusplus nlohmann_json fmt SQLite3 PostgreSQL ZLIB CURL Threa
   others+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 built reflex_only --no-warn-unused-cli "${others[@]}"
+built reflex_in_c --no-warn-unused-cli "${others[@]}"
+"$folder/reflex_in_c/reflex_in_c" "$folder/car.vehicle" >/dev/null
+# Nor does what builds it alone look for one.
+cmake -G Ninja -S . -B "$folder/alone" -DSACA_DEVELOPER=OFF -DSACA_BUILD=reflex --no-warn-unused-cli "${others[@]}" >/dev/null
 needed=$(readelf -d "$folder/reflex_only/reflex_only" | sed -n 's/.*(NEEDED).*\[\(.*\)\].*/\1/p')
 if foreign=$(grep -vE '^lib(stdc\+\+|m|gcc_s|c)\.so\.' <<<"$needed"); then
   echo "package: error: reflex_only: want the C and C++ libraries alone, got $foreign" >&2

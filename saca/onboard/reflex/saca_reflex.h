@@ -9,9 +9,10 @@
  * radians; metres, seconds, kilograms. W is fixed to the ground, B to the ego at its centre of
  * mass, A to a road user at its body's centre, L to the ego's lane.
  *
- * One thread to a plane. After `saca_reflex_open` nothing is allocated, locked or waited for, and
- * no function throws. A struct that is handed over begins with its size, which `saca_..._init`
- * fills in with the defaults: so a program of another version is told so, instead of being misread.
+ * One thread to a plane; `init` functions take no null pointer, all others say what they make of
+ * one. After `saca_reflex_open` nothing is allocated, locked or waited for, and no function throws.
+ * A struct that is handed over begins with its size, which `saca_..._init` fills in with the
+ * defaults: so a program of another version is told so, instead of being misread.
  */
 
 #include <stddef.h>
