@@ -409,7 +409,7 @@ saca_status saca_model_open(const saca_reflex* reflex, const saca_scene* scene,
     if (saca::world::broken_rule(begun_in)) {
       return SACA_BAD_SCENE;
     }
-    auto state = saca::manoeuvre::rolling_state(car, begun_in.ego, begun_in.grip);
+    const auto state = saca::manoeuvre::rolling_state(car, begun_in.ego, begun_in.grip);
     *model = new saca_model{&car, state};  // NOLINT: C owns it
     return SACA_OK;
   });

@@ -175,7 +175,7 @@ typedef struct {
 } saca_command;
 void saca_command_init(saca_command* command);
 
-typedef struct saca_reflex saca_reflex;
+typedef struct saca_reflex saca_reflex; /* NOLINT(readability-identifier-naming): a name of C */
 
 /* Reads a vehicle package into memory and makes sure that it is whole and belongs to this library
  * (some 50 ms); what becomes of the file then does not matter.
@@ -212,7 +212,7 @@ saca_status saca_reflex_control(saca_reflex* reflex, const saca_measured* measur
 saca_status saca_reflex_stand_down(saca_reflex* reflex);
 
 /* A model of the package's car, to try all this without one (docs/architecture.md, vehicle). */
-typedef struct saca_model saca_model;
+typedef struct saca_model saca_model; /* NOLINT(readability-identifier-naming): likewise */
 /* Rolls as the scene's ego does, wheels and actuators settled. The plane outlives it. */
 saca_status saca_model_open(const saca_reflex* reflex, const saca_scene* scene, saca_model** model);
 void saca_model_close(saca_model* model); /* NULL is fine */
