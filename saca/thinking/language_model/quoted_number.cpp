@@ -13,9 +13,6 @@ namespace {
 bool is_numeral(char c) {
   return c >= '0' && c <= '9';
 }
-char small(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
 
 bool ends_with_word(std::string_view text, std::string_view word) {
   while (!text.empty() && text.back() == ' ') {
@@ -23,7 +20,7 @@ bool ends_with_word(std::string_view text, std::string_view word) {
   }
   return text.size() >= word.size() &&
          std::equal(word.rbegin(), word.rend(), text.rbegin(),
-                    [](char a, char b) { return small(a) == small(b); });
+                    [](char a, char b) { return lowered(a) == lowered(b); });
 }
 
 // "1.", "2)", "0 AEB" at the start of a line number the line; they quote nothing.
@@ -69,7 +66,7 @@ std::string unit_at(std::string_view rest) {
 bool begins_with_word(std::string_view text, std::string_view word) {
   return text.size() >= word.size() &&
          std::equal(word.begin(), word.end(), text.begin(),
-                    [](char a, char b) { return a == small(b); }) &&
+                    [](char a, char b) { return a == lowered(b); }) &&
          (text.size() == word.size() || !is_word_char(text[word.size()]));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "saca/base/core/names.h"
+#include "saca/thinking/language_model/words.h"
 
 namespace saca::language_model {
 namespace {
@@ -13,9 +14,6 @@ constexpr std::array<std::string_view, 3> kind_names{"first", "ended", "forced"}
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
 }  // namespace
@@ -40,8 +38,8 @@ std::optional<manoeuvre::PolicyId> stated_policy(std::string_view text) {
   }
   std::string_view rest = text.substr(at + answer_stem.size());
   rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
-  const bool one_digit = !rest.empty() && is_digit(rest[0]) &&
-                         (rest.size() == 1 || (!is_digit(rest[1]) && !is_letter(rest[1])));
+  const bool one_digit =
+      !rest.empty() && is_digit(rest[0]) && (rest.size() == 1 || !is_word_char(rest[1]));
   const bool fraction = rest.size() > 2 && rest[1] == '.' && is_digit(rest[2]);
   if (!one_digit || fraction) {
     return std::nullopt;

@@ -11,6 +11,7 @@
 namespace saca::language_model {
 
 /// ASCII letters in lower case, for looking up words.
+[[nodiscard]] char lowered(char c);
 [[nodiscard]] std::string lowered(std::string_view text);
 
 /// An ASCII letter or digit, or `_`.
