@@ -5,14 +5,15 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
-#include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "saca/base/core/contract.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/onboard/reflex/encounter.h"
 #include "saca/onboard/reflex/intake.h"
@@ -59,7 +60,17 @@ saca_status check(const Struct* given) {
   if (given == nullptr) {
     return SACA_BAD_ARGUMENT;
   }
-  return given->size == sizeof(Struct) ? SACA_OK : SACA_OTHER_VERSION;
+  if constexpr (requires { given->size; }) {
+    if (given->size != sizeof(Struct)) {
+      return SACA_OTHER_VERSION;
+    }
+  }
+  if constexpr (requires { given->num_actors; }) {
+    if (given->num_actors > SACA_MAX_ACTORS) {
+      return SACA_BAD_ARGUMENT;
+    }
+  }
+  return SACA_OK;
 }
 
 Vec2 vector_of(const saca_vector& given) {
@@ -183,9 +194,15 @@ void tell(std::string_view text, char* message, std::size_t size) {
   }
 }
 
-/// Nothing that C++ throws reaches C.
+/// Works where everything that was given can be used (`usable`: of check). Nothing that C++ throws
+/// reaches C.
 template <class Work>
-saca_status guarded(const Work& work) noexcept {
+saca_status guarded(std::initializer_list<saca_status> usable, const Work& work) noexcept {
+  for (const saca_status status : usable) {
+    if (status != SACA_OK) {
+      return status;
+    }
+  }
   try {
     return work();
   } catch (const std::exception&) {
@@ -203,6 +220,10 @@ struct saca_reflex {
         encounter(package.car) {}
 
   saca_status answer(const IntakeResult& taken, saca_answer& told);
+  void begin_anew() noexcept {
+    plane.begin_anew();
+    encounter.begin_anew();
+  }
 
   VehiclePackage package;
   ReflexPlane plane;
@@ -224,8 +245,7 @@ saca_status saca_reflex::answer(const IntakeResult& taken, saca_answer& told) {
   if (taken.usable) {
     const saca::world::Scene& scene = intake.scene();
     if (taken.new_drive) {
-      plane.begin_anew();
-      encounter.begin_anew();
+      begin_anew();
     }
     const saca::reflex::Reflex reflex = plane.step(scene, encounter.finished());
     const bool is_over = encounter.look(scene, reflex);
@@ -241,8 +261,7 @@ saca_status saca_reflex::answer(const IntakeResult& taken, saca_answer& told) {
     }
     if (is_over) {
       told.encounter_is_over = 1;
-      plane.begin_anew();
-      encounter.begin_anew();
+      begin_anew();
     }
   }
   const auto plan = encounter.plan();
@@ -311,7 +330,7 @@ saca_status saca_reflex_open(const char* path, int32_t version, saca_reflex** re
          message, message_size);
     return SACA_OTHER_VERSION;
   }
-  return guarded([&]() -> saca_status {
+  return guarded({}, [&]() -> saca_status {
     auto package = saca::reflex::read_vehicle_package(path);
     if (!package.has_value()) {
       tell(package.error().message, message, message_size);
@@ -330,18 +349,7 @@ const char* saca_reflex_car_name(const saca_reflex* reflex) {
 }
 
 saca_status saca_reflex_step(saca_reflex* reflex, const saca_scene* scene, saca_answer* answer) {
-  if (reflex == nullptr) {
-    return SACA_BAD_ARGUMENT;
-  }
-  for (const saca_status status : {check(scene), check(answer)}) {
-    if (status != SACA_OK) {
-      return status;
-    }
-  }
-  if (scene->num_actors > SACA_MAX_ACTORS) {
-    return SACA_BAD_ARGUMENT;
-  }
-  return guarded([&] {
+  return guarded({check(reflex), check(scene), check(answer)}, [&] {
     const saca::world::Scene came = scene_of(*scene, reflex->package.car);
     reflex->broken_rule = saca::world::broken_rule(came).value_or("");
     return reflex->answer(reflex->intake.take(came), *answer);
@@ -349,13 +357,8 @@ saca_status saca_reflex_step(saca_reflex* reflex, const saca_scene* scene, saca_
 }
 
 saca_status saca_reflex_miss(saca_reflex* reflex, double time, saca_answer* answer) {
-  if (reflex == nullptr) {
-    return SACA_BAD_ARGUMENT;
-  }
-  if (const saca_status status = check(answer); status != SACA_OK) {
-    return status;
-  }
-  return guarded([&] { return reflex->answer(reflex->intake.carry_on(time), *answer); });
+  return guarded({check(reflex), check(answer)},
+                 [&] { return reflex->answer(reflex->intake.carry_on(time), *answer); });
 }
 
 const char* saca_reflex_broken_rule(const saca_reflex* reflex) {
@@ -364,31 +367,24 @@ const char* saca_reflex_broken_rule(const saca_reflex* reflex) {
 
 saca_status saca_reflex_control(saca_reflex* reflex, const saca_measured* measured, double dt,
                                 saca_command* command) {
-  if (reflex == nullptr || !(dt > 0.0 && std::isfinite(dt))) {
-    return SACA_BAD_ARGUMENT;
-  }
-  for (const saca_status status : {check(measured), check(command)}) {
-    if (status != SACA_OK) {
-      return status;
-    }
-  }
-  return guarded([&]() -> saca_status {
-    const saca::vehicle::Command wanted = reflex->encounter.control(state_of(*measured), dt);
-    command->steering = wanted.steering;
-    std::copy(wanted.brake_torque.begin(), wanted.brake_torque.end(),
-              std::begin(command->brake_torque));
-    command->motor_torque = wanted.motor_torque;
-    return SACA_OK;
-  });
+  const bool is_time = dt > 0.0 && std::isfinite(dt);
+  return guarded(
+      {check(reflex), is_time ? SACA_OK : SACA_BAD_ARGUMENT, check(measured), check(command)},
+      [&]() -> saca_status {
+        const saca::vehicle::Command wanted = reflex->encounter.control(state_of(*measured), dt);
+        command->steering = wanted.steering;
+        std::copy(wanted.brake_torque.begin(), wanted.brake_torque.end(),
+                  std::begin(command->brake_torque));
+        command->motor_torque = wanted.motor_torque;
+        return SACA_OK;
+      });
 }
 
 saca_status saca_reflex_stand_down(saca_reflex* reflex) {
-  if (reflex == nullptr) {
-    return SACA_BAD_ARGUMENT;
-  }
-  reflex->plane.begin_anew();
-  reflex->encounter.begin_anew();
-  return SACA_OK;
+  return guarded({check(reflex)}, [&]() -> saca_status {
+    reflex->begin_anew();
+    return SACA_OK;
+  });
 }
 
 saca_status saca_model_open(const saca_reflex* reflex, const saca_scene* scene,
@@ -397,13 +393,7 @@ saca_status saca_model_open(const saca_reflex* reflex, const saca_scene* scene,
     return SACA_BAD_ARGUMENT;
   }
   *model = nullptr;
-  if (const saca_status status = check(scene); status != SACA_OK) {
-    return status;
-  }
-  if (scene->num_actors > SACA_MAX_ACTORS) {
-    return SACA_BAD_ARGUMENT;
-  }
-  return guarded([&]() -> saca_status {
+  return guarded({check(scene)}, [&]() -> saca_status {
     const saca::manoeuvre::Car& car = reflex->package.car;
     const saca::world::Scene begun_in = scene_of(*scene, car);
     if (saca::world::broken_rule(begun_in)) {
@@ -420,37 +410,30 @@ void saca_model_close(saca_model* model) {
 
 saca_status saca_model_step(saca_model* model, const saca_command* command, double grip,
                             double dt) {
-  if (model == nullptr) {
-    return SACA_BAD_ARGUMENT;
-  }
-  if (const saca_status status = check(command); status != SACA_OK) {
-    return status;
-  }
-  try {
-    model->state = saca::vehicle::step(*model->car, model->state, command_of(*command), grip, dt);
-    return SACA_OK;
-  } catch (const saca::ContractViolation&) {
-    return SACA_BAD_ARGUMENT;  // no finite number, or out of its range
-  }
+  return guarded({check(model), check(command)}, [&]() -> saca_status {
+    try {
+      model->state = saca::vehicle::step(*model->car, model->state, command_of(*command), grip, dt);
+      return SACA_OK;
+    } catch (const saca::ContractViolation&) {
+      return SACA_BAD_ARGUMENT;  // no finite number, or out of its range
+    }
+  });
 }
 
 saca_status saca_model_measure(const saca_model* model, saca_measured* measured) {
-  if (model == nullptr) {
-    return SACA_BAD_ARGUMENT;
-  }
-  if (const saca_status status = check(measured); status != SACA_OK) {
-    return status;
-  }
-  const saca::vehicle::VehicleState& state = model->state;
-  measured->X_WB = {state.X_WB.p.x, state.X_WB.p.y, state.X_WB.yaw};
-  measured->v_B = {state.v_B.x, state.v_B.y};
-  measured->a_B = {state.a_B.x, state.a_B.y};
-  measured->yaw_rate = state.yaw_rate;
-  measured->steering = state.steering;
-  std::copy(state.wheel_speed.begin(), state.wheel_speed.end(), std::begin(measured->wheel_speed));
-  std::copy(state.brake_torque.begin(), state.brake_torque.end(),
-            std::begin(measured->brake_torque));
-  measured->motor_torque = state.motor_torque;
-  measured->load_a_B = {state.transfer_a_B.x, state.transfer_a_B.y};
-  return SACA_OK;
+  return guarded({check(model), check(measured)}, [&]() -> saca_status {
+    const saca::vehicle::VehicleState& state = model->state;
+    measured->X_WB = {state.X_WB.p.x, state.X_WB.p.y, state.X_WB.yaw};
+    measured->v_B = {state.v_B.x, state.v_B.y};
+    measured->a_B = {state.a_B.x, state.a_B.y};
+    measured->yaw_rate = state.yaw_rate;
+    measured->steering = state.steering;
+    std::copy(state.wheel_speed.begin(), state.wheel_speed.end(),
+              std::begin(measured->wheel_speed));
+    std::copy(state.brake_torque.begin(), state.brake_torque.end(),
+              std::begin(measured->brake_torque));
+    measured->motor_torque = state.motor_torque;
+    measured->load_a_B = {state.transfer_a_B.x, state.transfer_a_B.y};
+    return SACA_OK;
+  });
 }

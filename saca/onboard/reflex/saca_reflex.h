@@ -12,7 +12,7 @@
  * One thread to a plane; `init` functions take no null pointer, all others say what they make of
  * one. After `saca_reflex_open` nothing is allocated, locked or waited for, and no function throws.
  * A struct that is handed over begins with its size, which `saca_..._init` fills in with the
- * defaults: so a program of another version is told so, instead of being misread.
+ * defaults: a program built with another version gets SACA_OTHER_VERSION, and is not misread.
  */
 
 #include <stddef.h>
