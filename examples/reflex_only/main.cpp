@@ -2,10 +2,9 @@
 // read, nothing is thought; where a forecaster would have spoken, the atlas does. Built against an
 // installed package.
 #include <cstdio>
-#include <optional>
 
 #include "saca/onboard/manoeuvre/ego.h"
-#include "saca/onboard/manoeuvre/execution.h"
+#include "saca/onboard/reflex/encounter.h"
 #include "saca/onboard/reflex/reflex_plane.h"
 #include "saca/onboard/reflex/vehicle_package.h"
 
@@ -33,18 +32,19 @@ int main(int num_arguments, char** arguments) {
   scene.actors.push_back(wreck);
 
   vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, scene.grip);
-  std::optional<manoeuvre::Execution> execution;
+  reflex::Encounter encounter(car);
   while (scene.time < 7.0) {
-    const reflex::Reflex answer = plane.step(scene, execution && execution->finished());
+    const reflex::Reflex answer = plane.step(scene, encounter.finished());
+    if (encounter.look(scene, answer)) {  // it is over
+      plane.begin_anew();
+      encounter.begin_anew();
+    }
     if (answer.triggered || answer.switched) {
-      execution.emplace(car, answer.plan, scene);
       const auto name = manoeuvre::name(answer.plan.policy);
       std::printf("%.2f s: %.*s\n", scene.time, static_cast<int>(name.size()), name.data());
     }
     for (int k = 0; k < 10; ++k) {  // the car: here its model
-      const vehicle::Command command =
-          execution ? execution->control(state, scene.grip, 0.001) : vehicle::Command{};
-      state = vehicle::step(car, state, command, scene.grip, 0.001);
+      state = vehicle::step(car, state, encounter.control(state, 0.001), scene.grip, 0.001);
     }
     scene.ego = manoeuvre::ego_state(state);
     scene.time += 0.01;
