@@ -295,8 +295,8 @@ def with_added(kept, added):
 
 
 def main():
-    if any(argument.startswith("--") and argument != "--" for argument in sys.argv[1:]) or sys.argv[1:] == ["add"] or len(sys.argv) == 2:
-        wants_help = sys.argv[1:] in (["--help"], ["-h"])
+    if len(sys.argv) == 2:  # a word by itself is no run
+        wants_help = sys.argv[1] in ("--help", "-h")
         print(__doc__.split("\n\n")[1], file=sys.stdout if wants_help else sys.stderr)
         sys.exit(0 if wants_help else 2)
     if sys.argv[1:2] == ["add"]:
