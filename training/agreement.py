@@ -21,7 +21,7 @@ import examples
 import fine_tune
 from examples import Problem
 
-REPLIES_SCHEMA = "saca.example_replies/1"
+REPLIES_SCHEMA = "saca.example_replies/2"
 KINDS = ("first", "last")
 
 

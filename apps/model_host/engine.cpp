@@ -32,7 +32,7 @@ constexpr int batch_capacity = 512;
 // busy machine steps vary by about two.
 constexpr double reserve_factor = 2.0;
 
-constexpr int rehearsed_tokens = 2;
+constexpr ReplyForm rehearsed{.max_tokens = 2};
 constexpr std::size_t telling_tokens = 64;  // a shorter prompt says nothing of a token's cost
 
 // Asked after what was generated so far. The tokeniser splits ": 6" into ":", " " and "6", so that
@@ -106,6 +106,22 @@ class Batch {
   llama_batch batch_;
 };
 
+using Sampler = std::unique_ptr<llama_sampler, decltype(&llama_sampler_free)>;
+
+// Of the likeliest tokens that make up this much of the probability one is drawn: the rest is what
+// nobody would write.
+constexpr float nucleus = 0.95F;
+
+Sampler sampler(int seed) {
+  Sampler chain(llama_sampler_chain_init(llama_sampler_chain_default_params()),
+                &llama_sampler_free);
+  const auto temperature = static_cast<float>(language_model::sampling_temperature);
+  llama_sampler_chain_add(chain.get(), llama_sampler_init_top_p(nucleus, 1));
+  llama_sampler_chain_add(chain.get(), llama_sampler_init_temp(temperature));
+  llama_sampler_chain_add(chain.get(), llama_sampler_init_dist(static_cast<std::uint32_t>(seed)));
+  return chain;
+}
+
 // Largest cost of the last steps, forgotten slowly [s].
 class RecentCost {
  public:
@@ -121,12 +137,13 @@ class RecentCost {
 struct SceneProgress {
   std::size_t scene = 0;
   llama_pos position = 0;  // of the next token in its sequence
-  llama_token next = 0;    // greedy choice, not yet evaluated
+  llama_token next = 0;    // chosen, not yet evaluated
   int tokens = 0;
   std::string text;
   Utf8Splitter splitter;
-  bool reasoning = false;  // the next token is wanted
-  bool answered = false;   // for good
+  Sampler sampler{nullptr, &llama_sampler_free};  // nullptr: greedy
+  bool reasoning = false;                         // the next token is wanted
+  bool answered = false;                          // for good
   AnswerKind end = AnswerKind::forced;
 };
 
@@ -177,7 +194,10 @@ struct Engine::State {
     return llama_decode(context, batch.get()) == 0;
   }
 
-  [[nodiscard]] llama_token likeliest(int batch_index) const {
+  [[nodiscard]] llama_token chosen(const SceneProgress& thought, int batch_index) const {
+    if (thought.sampler != nullptr) {
+      return llama_sampler_sample(thought.sampler.get(), context, batch_index);
+    }
     const float* logits = llama_get_logits_ith(context, batch_index);
     const float* end = logits + llama_vocab_n_tokens(vocab);
     return static_cast<llama_token>(std::max_element(logits, end) - logits);
@@ -320,7 +340,7 @@ struct Engine::State {
     }
     for (const auto& [thought, at] : running) {
       ++thought->position;
-      thought->next = likeliest(at);
+      thought->next = chosen(*thought, at);
       thought->reasoning = thought->end != AnswerKind::ended;
     }
     return true;
@@ -363,7 +383,7 @@ struct Engine::State {
     figures.prompt_tokens[thought.scene] = static_cast<int>(prompt.size());
     events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
     thought.position = system_tokens + static_cast<llama_pos>(prompt.size());
-    thought.next = likeliest(last);
+    thought.next = chosen(thought, last);
     thought.reasoning = true;
     return read_answers({&thought}, AnswerKind::first, deadline, events);
   }
@@ -404,7 +424,7 @@ struct Engine::State {
   }
 
   // All of an ask: prompts and first answers, reasoning, last answers.
-  AskFigures think(const std::vector<Tokens>& scenes, Clock::Time deadline, int max_tokens,
+  AskFigures think(const std::vector<Tokens>& scenes, Clock::Time deadline, const ReplyForm& form,
                    Clock& its_clock, const EngineEvents& events) {
     clock = &its_clock;
     is_cancelled = events.is_cancelled;
@@ -414,12 +434,15 @@ struct Engine::State {
     bool in_time = true;
     for (std::size_t i = 0; in_time && i < scenes.size(); ++i) {
       thoughts[i].scene = i;
+      if (form.sampling_seed != 0) {
+        thoughts[i].sampler = sampler(form.sampling_seed);
+      }
       in_time = begin_scene(thoughts[i], scenes[i], deadline, figures, events);
     }
     figures.overran = !in_time;
     const auto reasons = [](const SceneProgress& thought) { return thought.reasoning; };
     while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
-      in_time = reason_on(thoughts, max_tokens, deadline, figures, events);
+      in_time = reason_on(thoughts, form.max_tokens, deadline, figures, events);
       // Who has ended says so at once: the others may still take long.
       figures.overran |= !conclude(thoughts, AnswerKind::ended, deadline, events);
     }
@@ -520,7 +543,7 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
   // Warms the caches up, and tells what a step and an answer cost before time matters.
   const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
                             [](std::size_t, AnswerKind, const std::vector<double>&) {}};
-  const auto prompts = s.prompts({max_scenes, "Ready?"}, rehearsed_tokens);
+  const auto prompts = s.prompts({max_scenes, "Ready?"}, rehearsed.max_tokens);
   if (!prompts.has_value()) {
     return prompts.error();
   }
@@ -528,22 +551,22 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
     s.threads.take_one();
     s.think(
         {prompts.value().begin(), prompts.value().begin() + static_cast<std::ptrdiff_t>(scenes)},
-        Clock::Time::max(), rehearsed_tokens, clock, nobody);
+        Clock::Time::max(), rehearsed, clock, nobody);
   }
   s.threads.take_all();
-  s.think(prompts.value(), Clock::Time::max(), rehearsed_tokens, clock, nobody);
+  s.think(prompts.value(), Clock::Time::max(), rehearsed, clock, nobody);
   return static_cast<int>(tokens.size());
 }
 
 Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Time deadline,
-                               int max_tokens, Clock& clock, const EngineEvents& events) {
+                               const ReplyForm& form, Clock& clock, const EngineEvents& events) {
   expects(!scenes.empty() && scenes.size() <= max_scenes, "1 to 3 scenes");
-  expects(max_tokens >= 0, "max_tokens >= 0");
+  expects(form.max_tokens >= 0, "max_tokens >= 0");
   State& s = *state_;
   if (s.system_tokens == 0) {
     return Error{Error::Code::malformed, "ask: want a system part first"};
   }
-  const Result<std::vector<Tokens>> prompts = s.prompts(scenes, max_tokens);
+  const Result<std::vector<Tokens>> prompts = s.prompts(scenes, form.max_tokens);
   if (!prompts.has_value()) {
     return prompts.error();
   }
@@ -553,7 +576,7 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.threads.take_all();
-  return s.think(prompts.value(), deadline, max_tokens, clock, events);
+  return s.think(prompts.value(), deadline, form, clock, events);
 }
 
 std::string Engine::description() const {

@@ -39,6 +39,12 @@ struct EngineEvents {
   std::function<bool()> is_cancelled = {};
 };
 
+/// What each reply is to be like.
+struct ReplyForm {
+  int max_tokens = 0;     ///< of reasoning, >= 0
+  int sampling_seed = 0;  ///< as language_model::AskOptions has it
+};
+
 /// Figures of one `ask`.
 struct AskFigures {
   std::vector<int> prompt_tokens;  ///< one per scene, 0 where the prompt was not evaluated
@@ -51,9 +57,9 @@ struct AskFigures {
 constexpr std::size_t max_scenes = language_model::most_scenes;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
-/// A language model in this process, through llama.cpp. Greedy: the same weights, system part,
-/// scenes and order of calls give the same text; the deadline decides only where it is cut. Where
-/// it gives way, the last bits of a probability may differ.
+/// A language model in this process, through llama.cpp. The same weights, system part, scenes,
+/// sampling seed and order of calls give the same text; the deadline decides only where it is cut.
+/// Where it gives way, the last bits of a probability may differ.
 class Engine {
  public:
   /// @return  Error::Code::unreadable or malformed, naming the file
@@ -68,17 +74,17 @@ class Engine {
   /// @return  its number of tokens, or an error when it does not fit
   [[nodiscard]] Result<int> set_system(std::string_view text, Clock& clock);
 
-  /// Thinks about up to three scenes until each reply has ended, `max_tokens` are reached, or the
+  /// Thinks about up to three scenes until each reply has ended, its tokens are used up, or the
   /// deadline leaves just the time to read the final answers: that reserve follows what the last
   /// steps cost.
   ///
   /// For each scene in turn the prompt is evaluated and its first answer read; then all reason
   /// together; each final answer is read from the eight digits' logits after what was generated.
   ///
-  /// @param max_tokens  of reasoning per scene, >= 0
-  /// @return            malformed when a prompt does not fit or no system part is set
+  /// @return  malformed when a prompt does not fit or no system part is set
   [[nodiscard]] Result<AskFigures> ask(const std::vector<std::string>& scenes, Clock::Time deadline,
-                                       int max_tokens, Clock& clock, const EngineEvents& events);
+                                       const ReplyForm& form, Clock& clock,
+                                       const EngineEvents& events);
 
   /// What the file says of itself: name and type of weights, e.g. "SmolLM2 135M, Q8_0".
   [[nodiscard]] std::string description() const;

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "saca/base/core/file.h"
 #include "saca/lab/prepare/harm_file.h"
@@ -100,6 +101,22 @@ TEST_F(HostTest, SameQuestionSameReply) {
     }
   }
   EXPECT_EQ(model.restarts(), 0);
+}
+
+TEST_F(HostTest, ASeedDrawsAnotherReplyAndAlwaysTheSame) {
+  language_model::ChildModel model(settings(24), clock_);
+  const auto reasoning = [&](int seed) {
+    const auto replies =
+        model.ask({scene_}, clock_.now() + patience, nobody_, {.sampling_seed = seed});
+    EXPECT_TRUE(replies.has_value()) << replies.error().message;
+    return replies.has_value() ? replies.value()[0].reasoning : std::string();
+  };
+  std::set<std::string> drawn;
+  for (const int seed : {0, 1, 2, 3}) {
+    drawn.insert(reasoning(seed));
+  }
+  EXPECT_GT(drawn.size(), 1U);
+  EXPECT_EQ(reasoning(3), reasoning(3));
 }
 
 // Shared prefix or not, alone or beside others: a scene's first answer is its own.

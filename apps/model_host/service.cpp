@@ -88,7 +88,8 @@ class Service {
         }};
     const double longest = 3600.0;  // [s]: nobody waits longer, and the sum below stays in range
     const auto budget = from_seconds(std::min(ask.budget, longest));
-    const auto figures = engine_->ask(ask.scenes, arrival + budget, ask.max_tokens, clock_, events);
+    const auto figures = engine_->ask(ask.scenes, arrival + budget,
+                                      {ask.max_tokens, ask.sampling_seed}, clock_, events);
     if (!figures.has_value()) {
       say(protocol::FailureMessage{ask.id, figures.error().message,
                                    figures.error().code == Error::Code::too_late});

@@ -21,6 +21,7 @@
 #include "apps/saca/version.h"
 #include "saca/base/formats/json_lines.h"
 #include "saca/lab/eval/reply_score.h"
+#include "saca/thinking/language_model/retelling.h"
 
 namespace saca::app {
 namespace {
@@ -29,7 +30,7 @@ using eval::ExampleReply;
 using eval::ReplyScore;
 using nlohmann::json;
 
-constexpr std::string_view replies_schema = "saca.example_replies/1";
+constexpr std::string_view replies_schema = "saca.example_replies/2";
 // Of a case and its twin together: without haste, so that every reply comes to its end.
 constexpr Clock::Time patience_with_model = std::chrono::seconds(180);
 
@@ -73,6 +74,7 @@ ReplyRow asked_about(DrawnExamples drawn, language_model::LanguageModel& model, 
     DrawnExample& each = drawn.examples[i];
     row.items.push_back(
         eval::example_reply(std::move(each.example), replies.value()[i], each.situation));
+    eval::try_again(row.items.back(), each.situation, model, clock);
   }
   return row;
 }
@@ -97,6 +99,7 @@ json figures_of(const ReplyScore& score, int failed, const std::string& command,
            {"eval.unfounded", score.unfounded},
            {"eval.shown", score.shown},
            {"eval.shown_in_part", score.shown_in_part},
+           {"eval.shown_at_last", score.shown_at_last},
            {"eval.tokens.p50", median_of(score.tokens)},
            {"eval.tokens.max", score.tokens.back()}};
   add_estimate(out, "eval.twins.needless", score.needless);
@@ -133,11 +136,13 @@ void print(const ReplyScore& score, const CasesEvalOptions& options, const std::
       "can be checked, {:.1f} % of them are true; in {:.1f} % of the replies all are; {:.1f} % of "
       "the choices\nrest on something false. As the reason {:.1f} % are shown as they are, {:.1f} "
       "% "
-      "without what does not hold;\nin place of the others the figures are told.\n",
+      "without what does not hold,\n{:.1f} % where the model may try {} times; in place of the "
+      "others the figures are "
+      "told.\n",
       with_interval(score.needless, 1, 100.0), 100.0 * score.ended, median_of(score.tokens),
       score.tokens.back(), 100.0 * score.agrees, score.statements, 100.0 * score.true_statements,
       100.0 * score.true_replies, 100.0 * score.unfounded, 100.0 * score.shown,
-      100.0 * score.shown_in_part);
+      100.0 * score.shown_in_part, 100.0 * score.shown_at_last, language_model::most_tries);
   if (score.calibration) {
     app::print("Temperature: {:.2f} (log loss {:.3f}, as it is {:.3f}; {} examples)\n",
                score.calibration->temperature, score.calibration->log_loss,

@@ -19,7 +19,7 @@ class QuestionTaker final : public language_model::LanguageModel {
   [[nodiscard]] Result<std::vector<language_model::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time,
       const std::function<void(const language_model::Progress&)>&,
-      const language_model::AskLimits&) override {
+      const language_model::AskOptions&) override {
     if (num_first_ == 0) {
       num_first_ = scenes.size();
     }

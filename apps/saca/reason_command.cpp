@@ -142,10 +142,12 @@ void tell_considered(std::size_t number, const ForecastReply& one, bool with_tex
   }
   const PolicyId chosen = likeliest_policy(one.reply.answers.back());
   if (one.explanation) {
-    app::print("Reasons, {}:\n{}",
+    const std::string in_try =
+        one.explanation->tries > 1 ? fmt::format(", try {}", one.explanation->tries) : "";
+    app::print("Reasons, {}{}:\n{}",
                one.explanation->from == language_model::Explanation::From::facts ? "by the figures"
                                                                                  : "as far as true",
-               one.explanation->text);
+               in_try, one.explanation->text);
   }
   app::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
              manoeuvre::index(chosen), name(chosen), one.check->passed ? "passed" : "failed",
@@ -243,7 +245,7 @@ int reason_about(const ReasonOptions& options) {
       one.truth = language_model::truth_of(one.reply, one.preview->prompt, situation);
       Preview replied = *one.preview;
       replied.reply = one.reply;
-      one.explanation = arbitration::explanation(replied);
+      one.explanation = arbitration::retold(replied, *model.value(), clock);
       all.push_back(std::move(one));
     }
   }

@@ -272,6 +272,12 @@ int run(const RunOptions& options) {
   // What was played is written down even if nobody wants to wait for the review.
   watch_for_interrupt();
   const InterruptStop interrupt;
+  if (options.review && setup.model != nullptr) {
+    for (arbitration::Preview& preview : record.previews) {
+      preview.retold = arbitration::retold(preview, *setup.model, clock, interrupt.token());
+    }
+    text = encounter::record_json(setup, record, &provenance.value());
+  }
   const auto review =
       options.review ? encounter::review(
                            setup, record, [&](std::string_view said) { story.on_review(said); },
@@ -357,8 +363,10 @@ void add_run(CLI::App& line, int& exit_code) {
   command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
   command->add_flag("--empty-memory", options->empty_memory,
                     "A memory that is not there yet begins without the shipped cases");
-  command->add_flag("--review", options->review,
-                    "Have the language model look back when all is over: half a minute");
+  command->add_flag(
+      "--review", options->review,
+      "Have the language model look back when all is over, and try again where its reasons did "
+      "not hold: half a minute or more");
   command->add_flag("--no-learning", options->no_learning,
                     "Ask the memory, but do not add to it what happens");
   command->add_option("--output", options->output, "Folder for records and reports")

@@ -31,9 +31,9 @@ Result<ThinkingCosts> read_thinking_costs(std::string_view text, std::string_vie
 Result<std::vector<language_model::Reply>> ChargedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
     const std::function<void(const language_model::Progress&)>& progress,
-    const language_model::AskLimits& limits) {
+    const language_model::AskOptions& options) {
   auto replies = model_.ask(
-      scenes, real_.now() + patience, [](const language_model::Progress&) {}, limits);
+      scenes, real_.now() + patience, [](const language_model::Progress&) {}, options);
   if (!replies.has_value()) {
     return replies;
   }

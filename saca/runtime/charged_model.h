@@ -40,7 +40,7 @@ class ChargedModel final : public language_model::LanguageModel {
   [[nodiscard]] Result<std::vector<language_model::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
       const std::function<void(const language_model::Progress&)>& progress,
-      const language_model::AskLimits& limits) override;
+      const language_model::AskOptions& options) override;
 
   language_model::LanguageModel& model_;
   ThinkingCosts costs_;

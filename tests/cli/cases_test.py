@@ -318,7 +318,7 @@ def test_a_model_is_scored_beside_simple_rules(hand_written, tmp_path):
     assert told["eval.best_within.harm"] == pytest.approx(harm(lambda one: min(one["known"][k] for k in one["admissible"])))
     assert told["eval.expert.best_within"] == 1.0 and told["eval.expert.admissible"] == 1.0
     header, *lines = examples(tmp_path / "replies.jsonl")
-    assert header == {"schema": "saca.example_replies/1", "replies": len(known)}
+    assert header == {"schema": "saca.example_replies/2", "replies": len(known)}
     assert [one["example"]["prompt"] for one in lines] == [one["prompt"] for one in known]
     again = saca(*asked, cwd=tmp_path)  # from the journal
     assert again.returncode == SUCCESS and "always AEB" in again.stdout and "by hand" in again.stdout

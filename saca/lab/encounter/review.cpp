@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/retelling.h"
 
 namespace saca::encounter {
 namespace {
@@ -49,9 +50,15 @@ Result<std::optional<language_model::Review>> review(
     return Error{Error::Code::too_late, "it was withdrawn"};
   }
   review.text = replies.value().front().reasoning;
-  review.truth = language_model::truth_of(language_model::finished_part(replies.value().front()),
-                                          review.prompt, aftermath.known, std::nullopt);
-  review.shown = language_model::explanation(review, aftermath);
+  const std::string_view written = language_model::finished_part(replies.value().front());
+  review.truth = language_model::truth_of(written, review.prompt, aftermath.known, std::nullopt);
+  const auto shown_by = [&](std::string_view text) {
+    return language_model::explanation({.prompt = review.prompt, .text = std::string(text)},
+                                       aftermath);
+  };
+  review.shown =
+      language_model::told_again(*setup.model, *setup.clock, review.prompt, shown_by(written),
+                                 shown_by, {.stop = stop, .max_tokens = review_tokens});
   return std::optional(std::move(review));
 }
 

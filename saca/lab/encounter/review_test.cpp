@@ -7,6 +7,7 @@
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
+#include "saca/thinking/language_model/retelling.h"
 #include "saca/thinking/language_model/scripted_model.h"
 
 namespace saca::encounter::review_test {
@@ -78,6 +79,7 @@ TEST_F(ReviewTest, IsHeardJudgedAndRecorded) {
   EXPECT_EQ(out["review"]["text"], words_);
   EXPECT_EQ(out["review"]["truth"]["checked"], 2);
   EXPECT_EQ(out["review"]["explanation"]["from"], "facts") << "its last statement is wrong";
+  EXPECT_EQ(out["review"]["explanation"]["tries"], language_model::most_tries);
 }
 
 TEST_F(ReviewTest, QuotesWhatTookThePlaceOfThePlan) {

@@ -10,6 +10,7 @@
 #include "saca/onboard/collision/ordering.h"
 #include "saca/thinking/language_model/conclusion.h"
 #include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/retelling.h"
 #include "saca/thinking/language_model/truth.h"
 #include "saca/thinking/memory/experience.h"
 
@@ -20,7 +21,7 @@ using From = language_model::Explanation::From;
 using manoeuvre::PolicyId;
 using nlohmann::json;
 
-constexpr std::string_view reply_schema = "saca.example_reply/1";
+constexpr std::string_view reply_schema = "saca.example_reply/2";
 
 json probabilities_json(const std::optional<Probabilities>& answer) {
   return answer ? json(*answer) : json(nullptr);
@@ -213,6 +214,8 @@ void score_texts(ReplyScore& score, std::span<const ExampleReply> replies) {
   score.shown = share(replies, [](const ExampleReply& one) { return one.shown == From::model; });
   score.shown_in_part =
       share(replies, [](const ExampleReply& one) { return one.shown == From::model_in_part; });
+  score.shown_at_last =
+      share(replies, [](const ExampleReply& one) { return one.shown_at_last != From::facts; });
   int statements = 0;
   int wrong = 0;
   for (const ExampleReply& one : replies) {
@@ -224,6 +227,13 @@ void score_texts(ReplyScore& score, std::span<const ExampleReply> replies) {
   score.statements = static_cast<double>(statements) / static_cast<double>(replies.size());
   score.true_statements =
       statements == 0 ? 0.0 : static_cast<double>(statements - wrong) / statements;
+}
+
+/// @param written  whole sentences of a reply
+language_model::Explanation shown_by(std::string_view written, const ExampleReply& reply,
+                                     const preview::Situation& situation) {
+  return language_model::true_part(written, reply.example.prompt, situation, likeliest(reply.last))
+      .value_or(language_model::Explanation{});
 }
 
 }  // namespace
@@ -245,11 +255,20 @@ ExampleReply example_reply(ReplyExample example, const language_model::Reply& re
     result.statements = truth.num_checked;
     result.false_statements = static_cast<int>(truth.wrong.size());
     result.unfounded = truth.is_choice_unfounded();
-    const auto held = language_model::true_part(result.reasoning, result.example.prompt, situation,
-                                                likeliest(result.last));
-    result.shown = held ? held->from : From::facts;
+    result.shown = shown_by(result.reasoning, result, situation).from;
   }
+  result.shown_at_last = result.shown;
   return result;
+}
+
+void try_again(ExampleReply& reply, const preview::Situation& situation,
+               language_model::LanguageModel& model, const Clock& clock,
+               const language_model::AskOptions& options) {
+  const language_model::Explanation told = language_model::told_again(
+      model, clock, reply.example.prompt, {.text = {}, .from = reply.shown},
+      [&](std::string_view written) { return shown_by(written, reply, situation); }, options);
+  reply.shown_at_last = told.from;
+  reply.tries = told.tries;
 }
 
 json to_json(const ExampleReply& reply) {
@@ -263,7 +282,9 @@ json to_json(const ExampleReply& reply) {
           {"statements", static_cast<std::uint64_t>(reply.statements)},
           {"false_statements", static_cast<std::uint64_t>(reply.false_statements)},
           {"unfounded", reply.unfounded},
-          {"shown", name(reply.shown)}};
+          {"shown", name(reply.shown)},
+          {"shown_at_last", name(reply.shown_at_last)},
+          {"tries", static_cast<std::uint64_t>(reply.tries)}};
 }
 
 Result<ExampleReply> example_reply_from_json(const json& document) {
@@ -279,16 +300,21 @@ Result<ExampleReply> example_reply_from_json(const json& document) {
   constexpr std::uint64_t many = 1'000'000;
   for (const auto& [key, part] : {std::pair{"tokens", &ExampleReply::tokens},
                                   std::pair{"statements", &ExampleReply::statements},
-                                  std::pair{"false_statements", &ExampleReply::false_statements}}) {
+                                  std::pair{"false_statements", &ExampleReply::false_statements},
+                                  std::pair{"tries", &ExampleReply::tries}}) {
     reply.*part = static_cast<int>(reader.integer(key, many));
   }
   reply.unfounded = reader.flag("unfounded");
-  const std::string shown = reader.text("shown");
-  if (const auto from = language_model::explanation_from(shown)) {
-    reply.shown = *from;
-  } else if (!problem) {
-    problem = Error{Error::Code::malformed,
-                    "shown: want model, model_in_part or facts, got \"" + shown + '"'};
+  for (const auto& [key, part] : {std::pair{"shown", &ExampleReply::shown},
+                                  std::pair{"shown_at_last", &ExampleReply::shown_at_last}}) {
+    const std::string shown = reader.text(key);
+    if (const auto from = language_model::explanation_from(shown)) {
+      reply.*part = *from;
+    } else if (!problem) {
+      problem =
+          Error{Error::Code::malformed,
+                std::string(key) + ": want model, model_in_part or facts, got \"" + shown + '"'};
+    }
   }
   reader.refuse_others();
   if (problem) {

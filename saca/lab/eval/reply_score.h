@@ -20,7 +20,7 @@
 namespace saca::eval {
 
 /// What a language model replied to an example's prompt, and how far that is true. One line of a
-/// file of them: schema "saca.example_reply/1".
+/// file of them: schema "saca.example_reply/2".
 struct ExampleReply {
   ReplyExample example;
   std::string reasoning;               ///< as written, without the answer
@@ -33,11 +33,21 @@ struct ExampleReply {
   bool unfounded = false;              ///< the choice rests on one of them
   /// Whose words would be shown as the reason of its last answer (language_model::explanation).
   language_model::Explanation::From shown = language_model::Explanation::From::facts;
+  /// The same, where the model may try again (language_model::told_again), and after how many
+  /// tries.
+  language_model::Explanation::From shown_at_last = language_model::Explanation::From::facts;
+  int tries = 1;
 };
 
 /// @param situation  that the example's prompt is about
 [[nodiscard]] ExampleReply example_reply(ReplyExample example, const language_model::Reply& reply,
                                          const preview::Situation& situation);
+
+/// Asks the model again where its words would not be shown: sets `shown_at_last` and `tries`.
+/// @param situation  that the example's prompt is about
+void try_again(ExampleReply& reply, const preview::Situation& situation,
+               language_model::LanguageModel& model, const Clock& clock,
+               const language_model::AskOptions& options = {});
 
 [[nodiscard]] nlohmann::json to_json(const ExampleReply& reply);
 /// Strict.
@@ -72,6 +82,7 @@ struct ReplyScore {
   double statements = 0.0;       ///< that can be checked, in a reply, mean
   double shown = 0.0;            ///< share whose words are shown as they are
   double shown_in_part = 0.0;    ///< share of which what is true is shown; of the rest the figures
+  double shown_at_last = 0.0;    ///< share whose words are shown, in part or not, after most_tries
   std::vector<int> tokens;       ///< of each reply, ascending
   std::optional<Calibration> calibration;  ///< of the last answers: as good as the best within
 };

@@ -118,6 +118,8 @@ TEST(ReplyScoreTest, TextsAreScoredByWhatTheySay) {
   wrong.unfounded = true;
   wrong.tokens = 60;
   honest.shown = language_model::Explanation::From::model;
+  honest.shown_at_last = honest.shown;
+  wrong.shown_at_last = language_model::Explanation::From::model_in_part;  // in a further try
   const ReplyScore score = reply_score(std::vector{honest, wrong}, 1);
   EXPECT_DOUBLE_EQ(score.agrees, 0.5);
   EXPECT_DOUBLE_EQ(score.true_statements, 0.75);
@@ -126,6 +128,7 @@ TEST(ReplyScoreTest, TextsAreScoredByWhatTheySay) {
   EXPECT_DOUBLE_EQ(score.statements, 2.0);
   EXPECT_DOUBLE_EQ(score.shown, 0.5);
   EXPECT_DOUBLE_EQ(score.shown_in_part, 0.0);
+  EXPECT_DOUBLE_EQ(score.shown_at_last, 1.0);
   EXPECT_THAT(score.tokens, ElementsAre(60, 80));
 }
 

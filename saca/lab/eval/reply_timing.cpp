@@ -18,7 +18,7 @@ class Listening final : public language_model::LanguageModel {
   [[nodiscard]] Result<std::vector<language_model::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time /*deadline*/,
       const std::function<void(const language_model::Progress&)>& /*progress*/,
-      const language_model::AskLimits& /*limits*/) override {
+      const language_model::AskOptions& /*options*/) override {
     if (first_.empty()) {
       first_ = scenes;
     }

@@ -8,6 +8,7 @@
 #include "saca/base/core/names.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/retelling.h"
 
 namespace saca::arbitration {
 namespace {
@@ -28,6 +29,26 @@ std::string told(const reflex::Verdict& verdict, const manoeuvre::Plan& plan) {
     }
   }
   return text;
+}
+
+/// Nothing is explained where there is none, or it cannot be driven.
+std::optional<manoeuvre::PolicyId> explained_policy(const Preview& preview) {
+  std::optional<manoeuvre::PolicyId> chosen;
+  if (preview.plan) {
+    chosen = preview.plan->policy;
+  } else if (!preview.reply.answers.empty()) {
+    chosen = language_model::likeliest_policy(preview.reply.answers.back());
+  }
+  return chosen && preview.situation.facts[manoeuvre::index(*chosen)].drivable() ? chosen
+                                                                                 : std::nullopt;
+}
+
+/// @param written  whole sentences of a reply
+language_model::Explanation explanation_by(std::string_view written, const Preview& preview,
+                                           manoeuvre::PolicyId chosen) {
+  return language_model::explanation(written,
+                                     preview.prompt.empty() ? prompt_of(preview) : preview.prompt,
+                                     preview.situation, told_case(preview), chosen);
 }
 
 }  // namespace
@@ -57,18 +78,27 @@ std::string prompt_of(const Preview& preview) {
 }
 
 std::optional<language_model::Explanation> explanation(const Preview& preview) {
-  std::optional<manoeuvre::PolicyId> chosen;
-  if (preview.plan) {
-    chosen = preview.plan->policy;
-  } else if (!preview.reply.answers.empty()) {
-    chosen = language_model::likeliest_policy(preview.reply.answers.back());
+  if (preview.retold) {
+    return preview.retold;
   }
-  if (!chosen || !preview.situation.facts[manoeuvre::index(*chosen)].drivable()) {
-    return std::nullopt;
+  const auto chosen = explained_policy(preview);
+  return chosen ? std::optional(explanation_by(language_model::finished_part(preview.reply),
+                                               preview, *chosen))
+                : std::nullopt;
+}
+
+std::optional<language_model::Explanation> retold(const Preview& preview,
+                                                  language_model::LanguageModel& model,
+                                                  const Clock& clock, const std::stop_token& stop) {
+  auto first = explanation(preview);
+  const auto chosen = explained_policy(preview);
+  if (!first || !chosen || preview.reply.answers.empty()) {
+    return first;
   }
-  return language_model::explanation(language_model::finished_part(preview.reply),
-                                     preview.prompt.empty() ? prompt_of(preview) : preview.prompt,
-                                     preview.situation, told_case(preview), *chosen);
+  return language_model::told_again(
+      model, clock, preview.prompt, *std::move(first),
+      [&](std::string_view written) { return explanation_by(written, preview, *chosen); },
+      {.stop = stop});
 }
 
 std::string trigger_text(const world::Actor& actor, double time,

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "saca/base/core/clock.h"
 #include "saca/onboard/reflex/plan_cache.h"
 #include "saca/onboard/reflex/reflex_plane.h"
 #include "saca/thinking/arbitration/check.h"
@@ -71,6 +73,7 @@ struct Preview {
   std::optional<double> ready;  ///< when it was cached [s]
   bool unheard = false;         ///< the model failed when it was asked: it may be asked again
   double missed = 0.0;          ///< the time that it had then and that was too short [s]
+  std::optional<language_model::Explanation> retold;  ///< after the encounter (retold())
 };
 
 /// The one of this number; nullptr: it is forgotten.
@@ -83,10 +86,16 @@ struct Preview {
 /// The scene part about it.
 [[nodiscard]] std::string prompt_of(const Preview& preview);
 
-/// Why its plan was chosen, or else what the model answered last (language_model::explanation).
-/// Takes milliseconds.
+/// Why its plan was chosen, or else what the model answered last (language_model::explanation); as
+/// it was retold, where it was. Takes milliseconds.
 /// @return  nullopt: there is neither, or it cannot be driven
 [[nodiscard]] std::optional<language_model::Explanation> explanation(const Preview& preview);
+
+/// The same, for which a model that was asked about the preview is asked again while the reasons
+/// are not its own words (language_model::told_again): off the deadline's path.
+[[nodiscard]] std::optional<language_model::Explanation> retold(
+    const Preview& preview, language_model::LanguageModel& model, const Clock& clock,
+    const std::stop_token& stop = {});
 
 /// Who set off the trigger, and why before T1 where it was.
 /// @param time  to the conflict [s]

@@ -5,6 +5,8 @@
 
 #include <optional>
 
+#include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/scripted_model.h"
 #include "tests/support/scenes.h"
 
 namespace saca::arbitration::event_test {
@@ -39,6 +41,42 @@ TEST(Event, SaysWhatCannotBeDriven) {
   reflex::Decision decision{.plan = manoeuvre::full_braking};
   decision.refused = {{manoeuvre::PolicyId::aes_left, std::nullopt}, manoeuvre::Refusal::speed};
   EXPECT_THAT(decision_text(decision), HasSubstr("AES-L cannot be driven from here (speed)"));
+}
+
+/// AEB was chosen by a model whose reasons did not hold.
+Preview badly_explained() {
+  Preview preview{.situation = language_model::example_situation()};
+  preview.prompt = prompt_of(preview);
+  preview.reply.reasoning = "1. So AEB: it hits truck1.\n";
+  preview.reply.answers = {{.probability = {1.0}, .kind = language_model::Answer::Kind::ended}};
+  return preview;
+}
+
+TEST(Event, ReasonsThatDoNotHoldAreToldAgainByTheModel) {
+  ManualClock clock;
+  language_model::ScriptedModel model(
+      language_model::ScriptedReply{
+          .lines = {{.text = "1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n",
+                     .answer = language_model::Answer::Kind::ended}}},
+      clock);
+  Preview preview = badly_explained();
+  ASSERT_TRUE(explanation(preview).has_value());
+  EXPECT_EQ(explanation(preview)->from, language_model::Explanation::From::facts);
+  preview.retold = retold(preview, model, clock);
+  EXPECT_EQ(model.last_scenes(), std::vector{preview.prompt});
+  EXPECT_EQ(explanation(preview)->from, language_model::Explanation::From::model);
+  EXPECT_EQ(explanation(preview)->tries, 2);
+}
+
+TEST(Event, AModelThatWasNotAskedIsNotAskedForReasons) {
+  ManualClock clock;
+  language_model::ScriptedModel model(manoeuvre::PolicyId::aeb, clock);
+  Preview preview = badly_explained();
+  preview.reply = {};
+  EXPECT_FALSE(retold(preview, model, clock).has_value());
+  preview.plan = manoeuvre::full_braking;
+  EXPECT_EQ(retold(preview, model, clock)->from, language_model::Explanation::From::facts);
+  EXPECT_EQ(model.num_asked(), 0);
 }
 
 }  // namespace

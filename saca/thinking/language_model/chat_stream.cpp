@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "saca/base/formats/json_text.h"
+#include "saca/thinking/language_model/language_model.h"
 
 namespace saca::language_model {
 namespace {
@@ -73,8 +74,12 @@ std::string json_text(const ChatQuestion& question) {
                 {question.newer ? "max_completion_tokens" : "max_tokens", question.max_tokens},
                 {"stream", true},
                 {"stream_options", {{"include_usage", true}}}};
+  const bool sampled = question.sampling_seed != 0;
+  if (sampled) {
+    body["seed"] = question.sampling_seed;
+  }
   if (!question.newer) {
-    body["temperature"] = 0;
+    body["temperature"] = sampled ? ChatJson(sampling_temperature) : ChatJson(0);
   }
   return body.dump(-1, ' ', false, ChatJson::error_handler_t::replace);
 }

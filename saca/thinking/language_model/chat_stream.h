@@ -14,11 +14,13 @@ struct ChatQuestion {
   std::string_view system;
   std::string_view scene;
   int max_tokens = 0;
+  int sampling_seed = 0;  ///< as AskOptions has it
   /// As OpenAI's newer models want it: `max_completion_tokens`, and no temperature.
   bool newer = false;
 };
 
-/// The request's body: streamed, without chance (temperature 0), with its token counts.
+/// The request's body: streamed, with its token counts. Without chance (temperature 0), or with
+/// `sampling_temperature` and the seed.
 [[nodiscard]] std::string json_text(const ChatQuestion& question);
 
 /// What a server says in the body of a refusal: its message where the body is JSON that has one,

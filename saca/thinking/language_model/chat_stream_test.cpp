@@ -137,6 +137,8 @@ TEST(ChatQuestion, IsWhatServersRead) {
                   "{\"role\":\"user\",\"content\":\"a\xEF\xBF\xBD\"}],"
                   R"("max_tokens":160,"stream":true,"stream_options":{"include_usage":true},)"
                   R"("temperature":0})");
+  EXPECT_THAT(json_text({.model = "m", .max_tokens = 7, .sampling_seed = 3}),
+              testing::HasSubstr(R"("seed":3,"temperature":0.7})"));
   EXPECT_EQ(json_text({.model = "m", .system = "", .scene = "", .max_tokens = 7, .newer = true}),
             R"({"model":"m","messages":[{"role":"system","content":""},)"
             R"({"role":"user","content":""}],"max_completion_tokens":7,"stream":true,)"

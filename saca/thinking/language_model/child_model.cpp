@@ -166,12 +166,12 @@ std::optional<Error> ChildModel::withdraw(Exchange& exchange, Clock::Time deadli
 
 Result<std::vector<Reply>> ChildModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   // The process is told to be done a margin before the deadline, and is heard for most of the
   // margin beyond that.
   const Clock::Time margin = from_seconds(settings_.margin);
   const Clock::Time listen_until = deadline - margin / 4;
-  if (auto error = wait_until_ready(listen_until, limits.stop)) {
+  if (auto error = wait_until_ready(listen_until, options.stop)) {
     return *error;
   }
   const double budget = to_seconds(deadline - margin - clock_.now());
@@ -181,12 +181,13 @@ Result<std::vector<Reply>> ChildModel::reply_to(
   Exchange exchange{.id = ++last_id_, .progress = progress, .replies = {}};
   exchange.replies.resize(scenes.size());
   const protocol::Request request =
-      protocol::Ask{exchange.id, scenes, budget, limits.max_tokens.value_or(settings_.max_tokens)};
+      protocol::Ask{exchange.id, scenes, budget, options.max_tokens.value_or(settings_.max_tokens),
+                    options.sampling_seed};
   auto error = process_.send(protocol::line(request), listen_until);
   if (!error) {
-    error = collect(exchange, listen_until, limits.stop);
+    error = collect(exchange, listen_until, options.stop);
   }
-  if (error && !exchange.done && limits.stop.stop_requested()) {
+  if (error && !exchange.done && options.stop.stop_requested()) {
     error = withdraw(exchange, listen_until);
   }
   if (error && !exchange.done) {

@@ -62,7 +62,7 @@ class ChildModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
 
   struct Exchange;
 

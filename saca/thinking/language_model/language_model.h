@@ -43,12 +43,18 @@ struct Progress {
   const Answer* answer = nullptr;  ///< a new answer, or none
 };
 
-/// What may end a question before its deadline.
-struct AskLimits {
+/// Where tokens are drawn: what the logits are divided by.
+constexpr double sampling_temperature = 0.7;
+
+/// How a question is put.
+struct AskOptions {
   /// When a stop is asked for the question is withdrawn: the call returns soon, as if its deadline
   /// had come, and the model can be asked again.
   std::stop_token stop;
   std::optional<int> max_tokens;  ///< of text per scene, > 0; nullopt: as the model is set up
+  /// >= 0. 0: the likeliest token at every place (greedy). Any other: tokens are drawn by their
+  /// probabilities, for the same seed the same.
+  int sampling_seed = 0;
 };
 
 constexpr std::size_t most_scenes = 3;  ///< of one question
@@ -72,10 +78,11 @@ class LanguageModel {
   [[nodiscard]] Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes,
                                                Clock::Time deadline,
                                                const std::function<void(const Progress&)>& progress,
-                                               const AskLimits& limits = {}) {
+                                               const AskOptions& options = {}) {
     expects(!scenes.empty() && scenes.size() <= most_scenes, "1 to 3 scenes");
-    expects(!limits.max_tokens || *limits.max_tokens > 0, "max_tokens > 0");
-    return reply_to(scenes, deadline, progress, limits);
+    expects(!options.max_tokens || *options.max_tokens > 0, "max_tokens > 0");
+    expects(options.sampling_seed >= 0, "sampling_seed >= 0");
+    return reply_to(scenes, deadline, progress, options);
   }
 
   /// What it is, for records: name, file hash.
@@ -85,7 +92,7 @@ class LanguageModel {
   /// As ask().
   [[nodiscard]] virtual Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) = 0;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) = 0;
 };
 
 }  // namespace saca::language_model

@@ -127,7 +127,7 @@ struct OpenAiModel::Call {
 /// One question: up to three calls and what has come back.
 class OpenAiModel::Exchange {
  public:
-  Exchange(OpenAiModel& model, const std::vector<std::string>& scenes, int max_tokens,
+  Exchange(OpenAiModel& model, const std::vector<std::string>& scenes, const AskOptions& options,
            const std::function<void(const Progress&)>& progress)
       : model_(model), progress_(progress), calls_(scenes.size()), replies_(scenes.size()) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -135,7 +135,8 @@ class OpenAiModel::Exchange {
       calls_[i].question = {.model = model.settings_.model,
                             .system = model.settings_.system,
                             .scene = scenes[i],
-                            .max_tokens = max_tokens};
+                            .max_tokens = options.max_tokens.value_or(model.settings_.max_tokens),
+                            .sampling_seed = options.sampling_seed};
     }
   }
   Exchange(const Exchange&) = delete;
@@ -457,7 +458,7 @@ OpenAiModel::~OpenAiModel() = default;
 
 Result<std::vector<Reply>> OpenAiModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   if (refusal_) {
     return *refusal_;
   }
@@ -465,8 +466,8 @@ Result<std::vector<Reply>> OpenAiModel::reply_to(
   if (clock_.now() >= end) {
     return Error{Error::Code::too_late, shown_ + ": no time is left to ask"};
   }
-  Exchange exchange(*this, scenes, limits.max_tokens.value_or(settings_.max_tokens), progress);
-  exchange.run(end, limits.stop);
+  Exchange exchange(*this, scenes, options, progress);
+  exchange.run(end, options.stop);
   return std::move(exchange).result();
 }
 

@@ -50,7 +50,7 @@ class OpenAiModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
 
   struct Connections;
   struct Call;

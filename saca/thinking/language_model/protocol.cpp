@@ -103,7 +103,8 @@ Json json_of(const Ask& ask) {
           {"id", ask.id},
           {"scenes", ask.scenes},
           {"budget_s", ask.budget},
-          {"max_tokens", ask.max_tokens}};
+          {"max_tokens", ask.max_tokens},
+          {"sampling_seed", ask.sampling_seed}};
 }
 Json json_of(const Cancel& cancel) {
   return {{"cmd", "cancel"}, {"id", cancel.id}};
@@ -162,6 +163,9 @@ Ask ask_from(const Json& json) {
           .scenes = {},
           .budget = number_at(json, "budget_s"),
           .max_tokens = count_at<int>(json, "max_tokens")};
+  if (json.contains("sampling_seed")) {
+    ask.sampling_seed = count_at<int>(json, "sampling_seed");
+  }
   for (const Json& scene : list_at(json, "scenes")) {
     if (!scene.is_string()) {
       refuse("scenes", "texts", scene);

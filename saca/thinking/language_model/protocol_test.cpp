@@ -11,8 +11,11 @@ constexpr const char* answer_line = R"({"v":1,"event":"answer","id":3,"scene":1,
                                     R"("probability":[0.5,0,0,0,0.25,0,0.125,0.125]})";
 
 TEST(Protocol, AskKeepsEverything) {
-  const Ask ask{
-      .id = 7, .scenes = {"one \"quoted\"\nline", "two"}, .budget = 4.125, .max_tokens = 160};
+  const Ask ask{.id = 7,
+                .scenes = {"one \"quoted\"\nline", "two"},
+                .budget = 4.125,
+                .max_tokens = 160,
+                .sampling_seed = 2};
   const auto read = request_from(line(Request(ask)));
   ASSERT_TRUE(read.has_value()) << read.error().message;
   const auto* back = std::get_if<Ask>(&read.value());
@@ -21,6 +24,11 @@ TEST(Protocol, AskKeepsEverything) {
   EXPECT_EQ(back->scenes, ask.scenes);
   EXPECT_EQ(back->budget, 4.125);
   EXPECT_EQ(back->max_tokens, 160);
+  EXPECT_EQ(back->sampling_seed, 2);
+  const auto greedy =
+      request_from(R"({"v":1,"cmd":"ask","id":7,"scenes":["one"],"budget_s":1.0,"max_tokens":9})");
+  ASSERT_TRUE(greedy.has_value()) << greedy.error().message;
+  EXPECT_EQ(std::get<Ask>(greedy.value()).sampling_seed, 0);
 }
 
 TEST(Protocol, CancelNamesItsAsk) {

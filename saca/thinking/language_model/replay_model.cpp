@@ -26,11 +26,15 @@ Json json_of(const RecordedReply& recorded) {
                        {"kind", name(answer.kind)},
                        {"probability", answer.probability}});
   }
-  return {{"prompt", recorded.prompt},
-          {"reasoning", recorded.reply.reasoning},
-          {"prompt_tokens", recorded.reply.prompt_tokens},
-          {"reply_tokens", recorded.reply.reply_tokens},
-          {"answers", answers}};
+  Json json{{"prompt", recorded.prompt},
+            {"reasoning", recorded.reply.reasoning},
+            {"prompt_tokens", recorded.reply.prompt_tokens},
+            {"reply_tokens", recorded.reply.reply_tokens},
+            {"answers", answers}};
+  if (recorded.sampling_seed != 0) {
+    json["sampling_seed"] = recorded.sampling_seed;
+  }
+  return json;
 }
 
 Answer answer_from(const Json& json) {
@@ -44,6 +48,7 @@ Answer answer_from(const Json& json) {
 RecordedReply reply_from(const Json& json) {
   RecordedReply recorded;
   recorded.prompt = json.at("prompt").get<std::string>();
+  recorded.sampling_seed = json.value("sampling_seed", 0);
   recorded.reply.reasoning = json.at("reasoning").get<std::string>();
   recorded.reply.prompt_tokens = json.at("prompt_tokens").get<int>();
   recorded.reply.reply_tokens = json.at("reply_tokens").get<int>();
@@ -55,7 +60,10 @@ RecordedReply reply_from(const Json& json) {
 
 // The first rule that a reply breaks, in words; nullptr when it can be used.
 const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
-  if (prompt_key(recorded.prompt) != key) {
+  if (recorded.sampling_seed < 0) {
+    return "a sampling_seed >= 0";
+  }
+  if (prompt_key(recorded.prompt, recorded.sampling_seed) != key) {
     return "the key of its prompt";
   }
   Clock::Time last{0};
@@ -80,9 +88,12 @@ const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
 
 }  // namespace
 
-std::string prompt_key(std::string_view prompt) {
+std::string prompt_key(std::string_view prompt, int sampling_seed) {
   Fnv hash;
   hash.add(prompt);
+  if (sampling_seed != 0) {
+    hash.add(fmt::format("\n{}", sampling_seed));
+  }
   return fmt::format("{:016x}", hash.value());
 }
 
@@ -129,16 +140,17 @@ Result<RecordedReplies> parse_replies(std::string_view text, std::string_view so
 
 Result<std::vector<Reply>> RecordingModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   const Clock::Time begin = clock_.now();
-  auto replies = model_.ask(scenes, deadline, progress, limits);
+  auto replies = model_.ask(scenes, deadline, progress, options);
   for (std::size_t i = 0; replies.has_value() && i < scenes.size(); ++i) {
-    RecordedReply recorded{.prompt = scenes[i], .reply = replies.value()[i]};
+    RecordedReply recorded{
+        .prompt = scenes[i], .sampling_seed = options.sampling_seed, .reply = replies.value()[i]};
     for (Answer& answer : recorded.reply.answers) {
       answer.time -= begin;
     }
     if (!recorded.reply.answers.empty()) {
-      replies_.insert_or_assign(prompt_key(scenes[i]), std::move(recorded));
+      replies_.insert_or_assign(prompt_key(scenes[i], options.sampling_seed), std::move(recorded));
     }
   }
   return replies;
@@ -154,7 +166,7 @@ std::optional<Error> RecordingModel::write(const std::filesystem::path& path) co
 
 Result<std::vector<Reply>> ReplayModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   struct RecordedAnswer {
     std::size_t scene = 0;
     Answer answer;
@@ -164,7 +176,7 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
   std::vector<RecordedAnswer> recorded_answers;
   bool any_known = false;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const auto found = replies_.replies.find(prompt_key(scenes[i]));
+    const auto found = replies_.replies.find(prompt_key(scenes[i], options.sampling_seed));
     if (found == replies_.replies.end() || found->second.prompt != scenes[i]) {
       continue;
     }
@@ -184,14 +196,15 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
   bool any_answer = false;
   for (const RecordedAnswer& next : recorded_answers) {
     if (pace_ == ReplayPace::as_recorded) {
-      clock_.wait_until_or_stop(next.answer.time, limits.stop);
+      clock_.wait_until_or_stop(next.answer.time, options.stop);
     }
-    if (limits.stop.stop_requested()) {
+    if (options.stop.stop_requested()) {
       break;
     }
     Reply& reply = replies[next.scene];
     if (next.answer.kind != Answer::Kind::first && reply.reasoning.empty()) {
-      const Reply& recorded = replies_.replies.at(prompt_key(scenes[next.scene])).reply;
+      const Reply& recorded =
+          replies_.replies.at(prompt_key(scenes[next.scene], options.sampling_seed)).reply;
       reply.reasoning = recorded.reasoning;
       reply.reply_tokens = recorded.reply_tokens;
       if (!reply.reasoning.empty()) {
@@ -208,7 +221,7 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
   return any_known ? Error{Error::Code::too_late, "replay: the recorded answers come too late"}
                    : Error{Error::Code::unreadable,
                            "replay: want a recorded prompt, got one that was never asked (key " +
-                               prompt_key(scenes.front()) + ")"};
+                               prompt_key(scenes.front(), options.sampling_seed) + ")"};
 }
 
 }  // namespace saca::language_model

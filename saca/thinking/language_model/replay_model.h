@@ -13,7 +13,8 @@ namespace saca::language_model {
 /// A reply that was given once, with the prompt that it answers.
 struct RecordedReply {
   std::string prompt;
-  Reply reply;  ///< answer times count from the question
+  int sampling_seed = 0;  ///< with which it was asked (AskOptions)
+  Reply reply;            ///< answer times count from the question
 };
 
 /// Replies by `prompt_key` of their prompt, and what gave them.
@@ -22,9 +23,10 @@ struct RecordedReplies {
   std::map<std::string, RecordedReply> replies;
 };
 
-/// Short name of a prompt in a file: 64-bit FNV-1a in hexadecimal. Two prompts with one key would
-/// be told apart by their text, which is kept with it.
-[[nodiscard]] std::string prompt_key(std::string_view prompt);
+/// Short name of a prompt in a file: 64-bit FNV-1a in hexadecimal, where tokens were drawn of the
+/// prompt, a line end, and the seed in decimal. Two prompts with one key would be told apart by
+/// their text, which is kept with it.
+[[nodiscard]] std::string prompt_key(std::string_view prompt, int sampling_seed = 0);
 
 /// The file of docs/model-protocol.md, schema `saca.replies/1`.
 [[nodiscard]] std::string json_text(const RecordedReplies& replies);
@@ -32,7 +34,7 @@ struct RecordedReplies {
 [[nodiscard]] Result<RecordedReplies> parse_replies(std::string_view text, std::string_view source);
 
 /// Passes questions on to a model and keeps what it says. Prompts that it did not answer are not
-/// kept; of a prompt asked twice the later reply is.
+/// kept; of a prompt asked twice with one seed the later reply is.
 class RecordingModel final : public LanguageModel {
  public:
   /// @param model  outlives this
@@ -47,7 +49,7 @@ class RecordingModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
 
   LanguageModel& model_;
   Clock& clock_;
@@ -75,7 +77,7 @@ class ReplayModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
 
   RecordedReplies replies_;
   ReplayPace pace_;

@@ -115,10 +115,37 @@ TEST_F(ReplayTest, FileKeepsEverything) {
   EXPECT_EQ(json_text(read.value()), json_text(model.recorded()));
 }
 
+TEST_F(ReplayTest, RepliesOfDrawnTokensAreKeptApart) {
+  ManualClock clock;
+  int asked = 0;
+  ScriptedModel counting(
+      [&](const std::string&) {
+        return ScriptedReply{
+            .lines = {{.text = std::to_string(++asked), .answer = Answer::Kind::ended}}};
+      },
+      clock);
+  RecordingModel model(counting, clock);
+  for (const int seed : {0, 1, 2}) {
+    ASSERT_TRUE(model.ask({"a"}, 200s, record_, {.sampling_seed = seed}).has_value());
+  }
+  const auto read = parse_replies(json_text(model.recorded()), "r.json");
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  ReplayModel replay(read.value(), ReplayPace::at_once, clock);
+  const auto said = [&](int seed) {
+    const auto replies = replay.ask({"a"}, 200s, record_, {.sampling_seed = seed});
+    return replies.has_value() ? replies.value()[0].reasoning : replies.error().message;
+  };
+  EXPECT_EQ(said(0), "1");
+  EXPECT_EQ(said(1), "2");
+  EXPECT_EQ(said(2), "3");
+  EXPECT_THAT(said(3), HasSubstr(prompt_key("a", 3)));
+}
+
 // FNV-1a, 64 bits: published values of the empty text and of "a".
 TEST(PromptKey, IsFnv1a) {
   EXPECT_EQ(prompt_key(""), "cbf29ce484222325");
   EXPECT_EQ(prompt_key("a"), "af63dc4c8601ec8c");
+  EXPECT_EQ(prompt_key("a", 7), prompt_key("a\n7"));
 }
 
 TEST(ParseReplies, RefusalNamesFileAndPlace) {

@@ -32,7 +32,7 @@ struct Review {
   std::string prompt;
   std::string text;
   Truth truth;
-  Explanation shown;  ///< what of it is true; else the figures, in words
+  Explanation shown;  ///< what of it, or of a further try, is true; else the figures, in words
 };
 
 /// Asks what happened, which policy would have been best and by how much, and what to remember.

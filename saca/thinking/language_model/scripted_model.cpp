@@ -20,7 +20,7 @@ Answer answer_of(const ScriptedLine& line, Clock::Time time) {
 
 Result<std::vector<Reply>> ScriptedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   ++num_asked_;
   last_scenes_ = scenes;
   last_deadline_ = deadline;
@@ -47,8 +47,8 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
                    [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
   bool any = false;
   for (const auto& [scene, line] : lines) {
-    clock_.wait_until_or_stop(begin + line.after, limits.stop);
-    if (limits.stop.stop_requested()) {
+    clock_.wait_until_or_stop(begin + line.after, options.stop);
+    if (options.stop.stop_requested()) {
       break;
     }
     Reply& reply = replies[scene];
@@ -63,7 +63,7 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
     }
   }
   if (cut) {
-    clock_.wait_until_or_stop(deadline - way_back, limits.stop);
+    clock_.wait_until_or_stop(deadline - way_back, options.stop);
   }
   if (!any) {
     return Error{Error::Code::too_late, "script: no answer in time"};

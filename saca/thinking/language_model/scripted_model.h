@@ -51,7 +51,7 @@ class ScriptedModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
 
   Script script_;
   Clock& clock_;

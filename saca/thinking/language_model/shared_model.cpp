@@ -47,17 +47,18 @@ std::optional<Error> SharedModel::failure() const {
 
 Result<std::vector<Reply>> SharedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   const Clock::Time patience = deadline - clock_.now();
   std::stop_source either;
   const std::stop_callback by_all(stop_, [&either] { either.request_stop(); });
-  const std::stop_callback by_this(limits.stop, [&either] { either.request_stop(); });
+  const std::stop_callback by_this(options.stop, [&either] { either.request_stop(); });
   std::vector<Reply> replies(scenes.size());
   std::optional<Error> unanswered;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const auto reply = [&] {
       const std::lock_guard lock(mutex_);
-      return known_or_asked({scenes[i], limits.max_tokens}, patience, either.get_token());
+      return known_or_asked({scenes[i], options.max_tokens, options.sampling_seed}, patience,
+                            either.get_token());
     }();
     if (!is_said(reply)) {
       return reply.error();
@@ -104,8 +105,9 @@ Result<Reply> SharedModel::asked(const Question& question, Clock::Time patience,
   Clock::Time begin{0};
   const auto ask = [&]() -> Result<Reply> {
     begin = clock_.now();
-    const auto replies = model_.ask({question.scene}, begin + patience, [](const Progress&) {},
-                                    {.stop = stop, .max_tokens = question.max_tokens});
+    const auto replies = model_.ask(
+        {question.scene}, begin + patience, [](const Progress&) {},
+        {.stop = stop, .max_tokens = question.max_tokens, .sampling_seed = question.sampling_seed});
     return replies.has_value() ? Result(later_by(replies.value().front(), -begin))
                                : replies.error();
   };

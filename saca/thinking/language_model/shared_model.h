@@ -41,13 +41,14 @@ class SharedModel final : public LanguageModel {
   struct Question {
     std::string scene;
     std::optional<int> max_tokens;
+    int sampling_seed = 0;
 
     auto operator<=>(const Question&) const = default;
   };
 
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
+      const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
   [[nodiscard]] Result<Reply> known_or_asked(const Question& question, Clock::Time patience,
                                              const std::stop_token& stop);
   [[nodiscard]] Result<Reply> asked(const Question& question, Clock::Time patience,

@@ -27,7 +27,7 @@ class Queue final : public LanguageModel {
   [[nodiscard]] Result<std::vector<Reply>> reply_to(const std::vector<std::string>&,
                                                     Clock::Time deadline,
                                                     const std::function<void(const Progress&)>&,
-                                                    const AskLimits&) override {
+                                                    const AskOptions&) override {
     last_deadline_ = deadline;
     return said_.at(num_asked_++);
   }
@@ -48,7 +48,7 @@ const Error dead{Error::Code::unreadable, "the model died"};
 
 TEST(SharedModel, DoesNotPutTheSameQuestionTwice) {
   ManualClock clock;
-  Queue inner({reply(Answer::Kind::ended), reply(Answer::Kind::forced)});
+  Queue inner({reply(Answer::Kind::ended), reply(Answer::Kind::forced), reply(Answer::Kind::ended)});
   SharedModel model(inner, clock);
   const auto first = model.ask({"a"}, 9s, unheard).value();
   clock.advance(5s);
@@ -64,6 +64,8 @@ TEST(SharedModel, DoesNotPutTheSameQuestionTwice) {
   EXPECT_THAT(told, testing::ElementsAre(6s, 6s));
   EXPECT_TRUE(model.ask({"a"}, 14s, unheard, {.max_tokens = 2}).has_value());
   EXPECT_EQ(inner.num_asked(), 2U);  // that is another one
+  EXPECT_TRUE(model.ask({"a"}, 14s, unheard, {.sampling_seed = 1}).has_value());
+  EXPECT_EQ(inner.num_asked(), 3U);  // so is that
 }
 
 TEST(SharedModel, AModelThatDiesIsAskedOnceMore) {
@@ -156,7 +158,7 @@ class Counting final : public LanguageModel {
   [[nodiscard]] Result<std::vector<Reply>> reply_to(const std::vector<std::string>& scenes,
                                                     Clock::Time,
                                                     const std::function<void(const Progress&)>&,
-                                                    const AskLimits&) override {
+                                                    const AskOptions&) override {
     most_ = std::max(most_.load(), ++now_);
     std::this_thread::yield();
     --now_;

@@ -1,0 +1,34 @@
+#include "saca/thinking/language_model/retelling.h"
+
+#include <chrono>
+#include <utility>
+
+#include "saca/thinking/language_model/reply.h"
+
+namespace saca::language_model {
+namespace {
+
+constexpr auto patience = std::chrono::minutes(2);
+
+}  // namespace
+
+Explanation told_again(LanguageModel& model, const Clock& clock, const std::string& prompt,
+                       Explanation first,
+                       const std::function<Explanation(std::string_view)>& shown_by,
+                       AskOptions options) {
+  Explanation shown = std::move(first);
+  while (shown.from == Explanation::From::facts && shown.tries < most_tries) {
+    options.sampling_seed = shown.tries;
+    const auto replies = model.ask(
+        {prompt}, clock.now() + patience, [](const Progress&) {}, options);
+    if (!replies.has_value() || options.stop.stop_requested()) {
+      break;
+    }
+    const int tries = shown.tries + 1;
+    shown = shown_by(finished_part(replies.value().front()));
+    shown.tries = tries;
+  }
+  return shown;
+}
+
+}  // namespace saca::language_model
