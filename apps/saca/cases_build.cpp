@@ -31,6 +31,7 @@ struct CasesBuildOptions {
   CaseMakingOptions making;
   std::string output = "runs/crash_cases.jsonl";
   std::string for_memory;
+  std::string drivers;
   std::string journal;
   int threads = usual_threads();
   bool as_json = false;
@@ -148,19 +149,27 @@ std::optional<Error> write_cases(const CasesBuildOptions& options,
   if (auto problem = write_output(options.output, eval::crash_cases_text(cases))) {
     return problem;
   }
-  if (options.for_memory.empty()) {
-    return std::nullopt;
-  }
   std::vector<memory::Case> plain;
-  plain.reserve(cases.size());
+  std::vector<memory::Case> driven;
   for (const CrashCase& one : cases) {
     plain.push_back(one.judged.one);
+    if (one.judged.driver) {
+      driven.push_back(one.judged.one);
+      driven.back().best = *one.judged.driver;
+    }
   }
-  return write_output(options.for_memory, memory::cases_text(plain));
+  if (!options.for_memory.empty()) {
+    if (auto problem = write_output(options.for_memory, memory::cases_text(plain))) {
+      return problem;
+    }
+  }
+  return options.drivers.empty() ? std::nullopt
+                                 : write_output(options.drivers, memory::cases_text(driven));
 }
 
 int build_cases(const CasesBuildOptions& options) {
-  if (const auto problem = why_outputs_unwritable({options.output, options.for_memory})) {
+  if (const auto problem =
+          why_outputs_unwritable({options.output, options.for_memory, options.drivers})) {
     return refused(*problem);
   }
   if (options.folders.empty() && options.hundred_car.empty()) {
@@ -249,6 +258,9 @@ void add_cases_build(CLI::App& cases, int& exit_code) {
   command->add_option("--output,-o", options->output, "Where the cases go")->capture_default_str();
   command->add_option("--for-memory", options->for_memory,
                       "Besides, without their records, for `saca memory import`");
+  command->add_option("--drivers", options->drivers,
+                      "Besides, of the study's events alone, with what the driver did in the place "
+                      "of what was best, for saca-train-imitator");
   command->add_option("--journal", options->journal,
                       "What was found so far (default: beside the output)");
   command->add_option("--threads", options->threads, "They do not change the result")

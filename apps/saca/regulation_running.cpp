@@ -64,7 +64,8 @@ std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t i
       .scenario = eval::scenario_of(run.regulation, cell, manoeuvre::footprint(car.inputs.car)),
       .twin = {}};
   const eval::SuiteRow row = eval::run_encounter(
-      encounter, {.methods = run.methods, .seed = 1, .imitator = run.imitator.get(), .exact = true},
+      encounter,
+      {.methods = run.methods, .seed = 1, .imitators = run.imitators.get(), .exact = true},
       car.setup, car.inputs.intent);
   std::vector<RegulationResult> results(run.methods.size());
   for (std::size_t m = 0; m < results.size(); ++m) {
@@ -121,11 +122,11 @@ Result<RegulationRun> prepare(const RegulationOptions& options,
                     .methods = methods,
                     .results = {},
                     .meta = {}};
-  auto imitator = imitator_of(methods, places.value());
-  if (!imitator.has_value()) {
-    return imitator.error();
+  auto imitators = imitators_of(methods, places.value());
+  if (!imitators.has_value()) {
+    return imitators.error();
   }
-  run.imitator = std::move(imitator).value();
+  run.imitators = std::move(imitators).value();
   if (auto problem = choose_rows(run.regulation, options.rows)) {
     return *problem;
   }

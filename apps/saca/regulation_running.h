@@ -39,7 +39,7 @@ struct RegulationRun {
   std::vector<std::string> methods;
   std::vector<RegulationResult> results;  ///< by car, cell and method, the last running fastest
   nlohmann::json meta;                    ///< "meta.command" and so on
-  std::shared_ptr<const eval::Imitator> imitator;  ///< nullptr: no method needs it
+  std::shared_ptr<const eval::Imitators> imitators;  ///< those that methods need
   std::vector<RegulationRun> elsewhere;  ///< "aeb" on each further surface, if it is a method
 
   [[nodiscard]] const RegulationResult& at(std::size_t car, std::size_t cell,

@@ -51,7 +51,7 @@ struct Bench {
   std::unique_ptr<const PlanesOfCar> planes;
   std::unique_ptr<SuiteThinking> thinking;
   std::shared_ptr<const learned_danger::Network> danger;  ///< nullptr: no method needs it
-  std::shared_ptr<const eval::Imitator> imitator;         ///< likewise
+  std::shared_ptr<const eval::Imitators> imitators;       ///< with those that methods need
   eval::SuiteOptions how;
 };
 
@@ -97,18 +97,18 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   if (!danger.has_value()) {
     return danger.error();
   }
-  auto imitator = imitator_of(methods, planes.value()->inputs.places);
-  if (!imitator.has_value()) {
-    return imitator.error();
+  auto imitators = imitators_of(methods, planes.value()->inputs.places);
+  if (!imitators.has_value()) {
+    return imitators.error();
   }
   eval::SuiteOptions how = how_of(options, methods);
-  how.imitator = imitator.value().get();
+  how.imitators = imitators.value().get();
   how.danger = danger.value().get();
   how.untuned = thinking.value()->untuned();
   how.experience = thinking.value()->experience();
   return std::make_shared<Bench>(Bench{std::move(opened), std::move(planes).value(),
                                        std::move(thinking).value(), std::move(danger).value(),
-                                       std::move(imitator).value(), std::move(how)});
+                                       std::move(imitators).value(), std::move(how)});
 }
 
 /// A row, whatever happens: what cannot be drawn is a fault of that encounter.
@@ -136,6 +136,10 @@ std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
   const auto part = [](const char* name, const std::optional<std::string>& text) {
     return text ? fmt::format(", {}: {}", name, *text) : std::string();
   };
+  std::string imitators;
+  for (const auto& [method, network] : *bench.imitators) {
+    imitators += fmt::format(", {}: {:016x}", method, network.digest());
+  }
   return fmt::format(
       "{}, {}, seed {}{}{}{}{}{}: {}", bench.source.what, options.car, options.seed,
       options.exact ? ", exact" : "", thresholds_arguments(options.thresholds),
@@ -144,9 +148,7 @@ std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
           part("danger", bench.danger == nullptr
                              ? std::nullopt
                              : std::optional(fmt::format("{:016x}", bench.danger->digest()))) +
-          part("imitator", bench.imitator == nullptr
-                               ? std::nullopt
-                               : std::optional(fmt::format("{:016x}", bench.imitator->digest()))),
+          imitators,
       joined(bench.how.methods));
 }
 
@@ -178,19 +180,21 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
                                 : std::optional(static_cast<std::size_t>(found - methods.begin()));
 }
 
-Result<std::shared_ptr<const eval::Imitator>> imitator_of(const std::vector<std::string>& methods,
-                                                          const Places& places) {
-  if (std::none_of(methods.begin(), methods.end(), [](const std::string& name) {
-        return eval::find_method(name)->needs == eval::Needs::imitator;
-      })) {
-    return std::shared_ptr<const eval::Imitator>();
+Result<std::shared_ptr<const eval::Imitators>> imitators_of(const std::vector<std::string>& methods,
+                                                            const Places& places) {
+  eval::Imitators all;
+  for (const std::string& name : methods) {
+    if (eval::find_method(name)->needs == eval::Needs::imitator) {
+      auto read = eval::Imitator::read(
+          places.root / "models" / "imitator" /
+          (name == "imitation" ? "compact_rwd_ev.safetensors" : "drivers.safetensors"));
+      if (!read.has_value()) {
+        return read.error();
+      }
+      all.emplace(name, std::move(read).value());
+    }
   }
-  auto read =
-      eval::Imitator::read(places.root / "models" / "imitator" / "compact_rwd_ev.safetensors");
-  if (!read.has_value()) {
-    return read.error();
-  }
-  return std::make_shared<const eval::Imitator>(std::move(read).value());
+  return std::make_shared<const eval::Imitators>(std::move(all));
 }
 
 Result<std::vector<std::string>> methods_from(const std::string& list,

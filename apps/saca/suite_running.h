@@ -68,9 +68,9 @@ struct SuiteRun {
                                                         const std::string& command,
                                                         const std::vector<std::string>& methods);
 
-/// The shipped network of who imitates choices; nullptr: none of these methods needs it.
+/// The shipped networks of those methods that imitate.
 /// @param methods  names of eval::methods()
-[[nodiscard]] Result<std::shared_ptr<const eval::Imitator>> imitator_of(
+[[nodiscard]] Result<std::shared_ptr<const eval::Imitators>> imitators_of(
     const std::vector<std::string>& methods, const Places& places);
 
 /// nullopt: it is not among them.

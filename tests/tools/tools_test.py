@@ -1,4 +1,5 @@
 """The scripts under tools/ that measure."""
+import gzip
 import json
 import pathlib
 import subprocess
@@ -28,3 +29,16 @@ def test_a_failing_run_is_not_hidden(tmp_path):
     program.write_text("#!/bin/sh\nexit 3\n")
     program.chmod(0o755)
     assert tool("start_time.py", program, "scenario").returncode == 3
+
+
+def test_cases_are_shipped_rounded_and_without_shipped_scenarios(tmp_path):
+    """What is shipped as a scenario is not in the cases, and the header says how many are left."""
+    cases = tmp_path / "cases.jsonl"
+    lines = [{"schema": "saca.cases/1", "cases": 2}, {"source": "100car_9018", "harm": 0.1}, {"source": "100car_1", "harm": 0.12345678, "id": 7}]
+    cases.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
+    out = tmp_path / "out.jsonl.gz"
+    subprocess.run([ROOT / "tools" / "shippable_cases.py", cases, out], check=True)
+    with gzip.open(out, "rt", encoding="utf-8") as text:
+        assert [json.loads(line) for line in text] == [{"schema": "saca.cases/1", "cases": 1}, {"source": "100car_1", "harm": 0.12346, "id": 7}]
+    refused = subprocess.run([ROOT / "tools" / "shippable_cases.py", tmp_path / "none", out], capture_output=True, text=True, check=False)
+    assert refused.returncode == 1 and "none: want a file of cases" in refused.stderr

@@ -89,4 +89,16 @@ int steers(const RecordedDriver& driver) {
   return std::abs(driver.aside) < far ? 0 : driver.aside > 0.0 ? 1 : -1;
 }
 
+manoeuvre::PolicyId policy_of(const RecordedDriver& driver) {
+  using manoeuvre::PolicyId;
+  switch (steers(driver)) {
+    case 1:
+      return brakes(driver) ? PolicyId::es_b_left : PolicyId::aes_left;
+    case -1:
+      return brakes(driver) ? PolicyId::es_b_right : PolicyId::aes_right;
+    default:
+      return brakes(driver) ? PolicyId::aeb : PolicyId::no_intervention;
+  }
+}
+
 }  // namespace saca::encounter

@@ -8,6 +8,7 @@
 #include "saca/onboard/collision/harm.h"
 #include "saca/onboard/collision/outcome.h"
 #include "saca/onboard/manoeuvre/car.h"
+#include "saca/onboard/manoeuvre/plan.h"
 
 namespace saca::encounter {
 
@@ -33,5 +34,7 @@ struct RecordedDriver {
 /// metre is more than drivers waver in their lane (0.2 m standard deviation) and less than it takes
 /// to pass somebody.
 [[nodiscard]] int steers(const RecordedDriver& driver);
+/// The policy that comes nearest: AEB, a swerve with or without braking to either side, or none.
+[[nodiscard]] manoeuvre::PolicyId policy_of(const RecordedDriver& driver);
 
 }  // namespace saca::encounter

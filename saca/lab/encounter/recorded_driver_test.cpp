@@ -49,6 +49,16 @@ TEST_F(RecordedDriverTest, SteeringIsHowFarAsideTheDriverCame) {
   EXPECT_EQ(steers(*of(drive(0.0, 0.1), 1.0)), 0);  // 0.4 m
 }
 
+TEST_F(RecordedDriverTest, CountsAsThePolicyThatComesNearest) {
+  using manoeuvre::PolicyId;
+  EXPECT_EQ(policy_of(*of(drive(0.0, 0.0), 1.0)), PolicyId::no_intervention);
+  EXPECT_EQ(policy_of(*of(drive(-3.0, 0.0), 1.0)), PolicyId::aeb);
+  EXPECT_EQ(policy_of(*of(drive(0.0, 0.3), 1.0)), PolicyId::aes_left);
+  EXPECT_EQ(policy_of(*of(drive(0.0, -0.3), 1.0)), PolicyId::aes_right);
+  EXPECT_EQ(policy_of(*of(drive(-3.0, 0.3), 1.0)), PolicyId::es_b_left);
+  EXPECT_EQ(policy_of(*of(drive(-3.0, -0.3), 1.0)), PolicyId::es_b_right);
+}
+
 TEST_F(RecordedDriverTest, MeetsWhoStandsInTheWay) {
   scenario::Scenario scenario = drive(0.0, 0.0);
   scenario.actors.push_back(

@@ -70,7 +70,7 @@ class ComparisonTest : public testing::Test {
                               .intent = &intent::shipped_model(),
                               .danger = &danger_,
                               .experience = &experience_,
-                              .imitator = &imitator_,
+                              .imitators = &imitators_,
                               .untuned = &untuned_,
                               .seed = 1});
   }
@@ -81,7 +81,9 @@ class ComparisonTest : public testing::Test {
   memory::Experience experience_;
   learned_danger::Network danger_ =
       learned_danger::Network::from(learned_danger::networks_that_hand_on(), "weights").value();
-  Imitator imitator_ = Imitator::read("models/imitator/compact_rwd_ev.safetensors").value();
+  Imitators imitators_{
+      {"imitation", Imitator::read("models/imitator/compact_rwd_ev.safetensors").value()},
+      {"imitation_drivers", Imitator::read("models/imitator/drivers.safetensors").value()}};
   language_model::ScriptedModel untuned_{PolicyId::aeb, clock_};
   scenario::Scenario scenario_;
   encounter::Stage stage_;

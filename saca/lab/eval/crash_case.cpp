@@ -124,6 +124,9 @@ json judged_json(const JudgedEncounter& judged, json& document) {
   document["admissible_harm"] = or_null(judged.admissible_harm);
   document["speaks_for"] = encounter::plan_json(judged.speaks_for);
   document["happened"] = std::move(happened);
+  if (judged.driver) {
+    document["driver"] = manoeuvre::index(*judged.driver);
+  }
   document["case"] = memory::to_json(judged.one);
   return document;
 }
@@ -271,6 +274,10 @@ Result<CrashCase> crash_case_from_json(const json& document) {
   }
   read_plans(reader, one.judged);
   read_happened(reader, one.judged);
+  if (reader.has_value("driver")) {
+    one.judged.driver = manoeuvre::policy_from(
+        static_cast<int>(reader.integer("driver", manoeuvre::num_policies - 1)));
+  }
   const json& its_case = reader.any("case");
   reader.refuse_others();
   if (!problem) {

@@ -42,6 +42,7 @@ CrashCase example() {
   one.judged.plans = {{one.judged.one.plan, 0.25, 0.5, true}, {{}, 0.5, 1.0, false}};
   one.judged.admissible_harm = 0.252;
   one.judged.speaks_for = one.judged.one.plan;
+  one.judged.driver = manoeuvre::PolicyId::es_b_right;
   one.judged.happened[0] =
       PolicyOverDraws{.plan = one.judged.one.plan, .harm = {0.2, 0.1, 0.3}, .contact = 0.75};
   return one;

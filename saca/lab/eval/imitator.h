@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
 #include <string_view>
 
 #include "saca/base/core/result.h"
@@ -64,5 +67,8 @@ class Imitator {
 
   std::array<formats::Layer, 3> layers_;
 };
+
+/// Networks that were shown different choices, by the name of the method that asks them.
+using Imitators = std::map<std::string, Imitator, std::less<>>;
 
 }  // namespace saca::eval

@@ -163,13 +163,14 @@ TEST(Imitator, RefusesOtherTensors) {
 
 // The shipped weights, at T1: a car stands where braking does not help and one side is free.
 TEST(Imitator, IsAMethod) {
-  const Imitator shipped = Imitator::read("models/imitator/compact_rwd_ev.safetensors").value();
+  const Imitators shipped{
+      {"imitation", Imitator::read("models/imitator/compact_rwd_ev.safetensors").value()}};
   SteadyClock clock;
   const manoeuvre::Car car = prepare::default_car();
   const collision::HarmModel harm = shipped_harm();
   const SuiteRow row =
       run_encounter({.number = 0, .family = "made", .scenario = only_left_helps(), .twin = {}},
-                    {.methods = {"imitation", "aeb"}, .imitator = &shipped, .exact = true},
+                    {.methods = {"imitation", "aeb"}, .imitators = &shipped, .exact = true},
                     {.forecast = {&car, &harm}, .clock = &clock}, intent::shipped_model());
   ASSERT_EQ(row.fault, "");
   const MethodRun& imitation = row.risk.runs[0];

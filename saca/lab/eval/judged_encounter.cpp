@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "saca/lab/encounter/learnt_case.h"
+#include "saca/lab/encounter/recorded_driver.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/lab/eval/oracle.h"
 #include "saca/lab/eval/trigger_case.h"
@@ -95,6 +96,10 @@ Result<std::optional<JudgedEncounter>> judged_encounter(
   take_oracle(oracle(*stage.scenario, *stage.car, *stage.harm,
                      {.time = now.time(), .draws = options.draws, .seed = options.seed}),
               options.draws, judged);
+  if (const auto driver =
+          encounter::recorded_driver(*stage.scenario, *stage.car, *stage.harm, now.time())) {
+    judged.driver = encounter::policy_of(*driver);
+  }
   return std::optional(std::move(judged));
 }
 

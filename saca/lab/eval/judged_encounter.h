@@ -60,6 +60,8 @@ struct JudgedEncounter {
   std::optional<double> admissible_harm;
   manoeuvre::Plan speaks_for;  ///< what the verdict by itself would begin
   std::array<std::optional<PolicyOverDraws>, manoeuvre::num_policies> happened;
+  std::optional<manoeuvre::PolicyId> driver;  ///< what the recorded driver did from then on;
+                                              ///< nullopt: none was recorded
 };
 
 struct JudgingOptions {

@@ -31,7 +31,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 40> infos{{
+constexpr std::array<MethodInfo, 41> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -90,6 +90,10 @@ constexpr std::array<MethodInfo, 40> infos{{
     {"imitation", "Imitation learning",
      "At T1, what a small network says that was shown scenes of the tuning split and what was best "
      "in them, with the compact car; it forecasts nothing.",
+     false, Needs::imitator},
+    {"imitation_drivers", "Imitation of drivers",
+     "As imitation; the network was shown what the drivers of the 100-Car study did in 87 "
+     "emergencies.",
      false, Needs::imitator},
     {"random", "Any of the eight", "One of the eight at T1, all alike likely."},
     {"first_forecast", "Best of the first forecast",
@@ -328,8 +332,8 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
       return Action{.plan = manoeuvre::default_plan(policy, view.scene.ego.v_B.x)};
     };
   }
-  if (name == "imitation") {
-    return [imitator = tools.imitator](const View& view) {
+  if (find_method(name)->needs == Needs::imitator) {
+    return [imitator = &tools.imitators->find(name)->second](const View& view) {
       return Action{
           .plan = manoeuvre::default_plan(imitator->choice(view.scene), view.scene.ego.v_B.x)};
     };
@@ -460,7 +464,8 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
   expects(find_method(name)->needs != Needs::danger || tools.danger != nullptr,
           "V_h is given to who chooses by it");
-  expects(find_method(name)->needs != Needs::imitator || tools.imitator != nullptr,
+  expects(find_method(name)->needs != Needs::imitator ||
+              (tools.imitators != nullptr && tools.imitators->contains(name)),
           "the network is given to who asks it");
   expects(find_method(name)->needs != Needs::untuned || tools.untuned != nullptr,
           "a model is given to who asks another one");

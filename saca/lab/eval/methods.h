@@ -43,7 +43,7 @@ struct MethodTools {
   const intent::Model* intent = nullptr;
   const learned_danger::Network* danger = nullptr;   ///< V_h learnt of the car; for who needs it
   const memory::Experience* experience = nullptr;    ///< of the memory; for who needs it
-  const Imitator* imitator = nullptr;                ///< for who needs it
+  const Imitators* imitators = nullptr;              ///< with those of who needs one
   language_model::LanguageModel* untuned = nullptr;  ///< in place of SACA's model; for who needs it
   std::uint64_t seed = 0;  ///< of who chooses at random, and of this encounter
 };

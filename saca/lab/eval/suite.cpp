@@ -40,7 +40,7 @@ PlayResult play(const scenario::Scenario& scenario, std::uint64_t number,
                                            .intent = &intent,
                                            .danger = options.danger,
                                            .experience = options.experience,
-                                           .imitator = options.imitator,
+                                           .imitators = options.imitators,
                                            .untuned = options.untuned,
                                            .seed = encounter_seed(options.seed, number)}));
     }

@@ -33,7 +33,7 @@ struct SuiteOptions {
   std::uint64_t seed = 1;                            ///< of all that is drawn
   const learned_danger::Network* danger = nullptr;   ///< as in MethodTools
   const memory::Experience* experience = nullptr;    ///< likewise
-  const Imitator* imitator = nullptr;                ///< likewise
+  const Imitators* imitators = nullptr;              ///< likewise
   language_model::LanguageModel* untuned = nullptr;  ///< likewise
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
