@@ -274,7 +274,7 @@ Result<CrashCase> crash_case_from_json(const json& document) {
   }
   read_plans(reader, one.judged);
   read_happened(reader, one.judged);
-  if (reader.has_value("driver")) {
+  if (reader.has("driver")) {
     one.judged.driver = manoeuvre::policy_from(
         static_cast<int>(reader.integer("driver", manoeuvre::num_policies - 1)));
   }

@@ -58,6 +58,14 @@ TEST(CrashCase, ComesBackFromItsLineToTheLastBit) {
   EXPECT_EQ(crash_cases_text(read.value()), text);
 }
 
+// Files of before drivers were told of are read, too.
+TEST(CrashCase, WithoutADriverItComesBackAsWell) {
+  CrashCase one = example();
+  one.judged.driver.reset();
+  EXPECT_FALSE(to_json(one).contains("driver"));
+  EXPECT_EQ(crash_case_from_json(to_json(one)).value().judged.driver, std::nullopt);
+}
+
 TEST(CrashCase, IsDrawnAgainAsItWas) {
   const CrashCase one = example();
   const auto again = drawn_again(one, "compact_rwd_ev", scenario::standard_ego);
