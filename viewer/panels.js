@@ -251,6 +251,7 @@ function show_run(record) {
     ["Grip", num(record.grip, 2)], ["Stored in memory as", record.case === null || record.case === undefined ? "not stored" : `case ${record.case}`],
     ["Reflex calls", is_number(timing.reflex_calls) ? String(timing.reflex_calls) : none],
     ["Reflex call, median / longest", `${num(timing.reflex_us_p50, 1)} / ${num(timing.reflex_us_max, 1, "µs")}`],
+    ["Processor time: thinking / verdicts", is_number(timing.thinking_cpu_s) ? `${num(timing.thinking_cpu_s, 2)} / ${num(timing.verdict_cpu_s, 2, "s")}` : none],
     ["Preview / first answer / answer after T2", `${num(timing.preview_s, 2)} / ${num(timing.first_answer_s, 2)} / ${num(timing.answer_s, 2, "s")}`],
     ["Deadlines missed", is_number(timing.deadline_misses) ? String(timing.deadline_misses) : none]];
   by_id("run").append(el("dl", { class: "facts" }, rows.map(([k, v]) => el("div", {}, el("dt", { text: k }), el("dd", { text: v ?? none })))));

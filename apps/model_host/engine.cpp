@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "saca/base/core/processor_time.h"
 #include "thread_choice.h"
 #include "utf8.h"
 
@@ -42,9 +42,7 @@ constexpr std::string_view stated_answer = "Response to user:";
 
 // Of all threads of this process, since it began [s].
 double processor_seconds() {
-  timespec used{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  return saca::processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 Tokens tokenised(const llama_vocab* vocab, std::string_view text, bool with_special) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "saca/base/core/names.h"
@@ -256,13 +257,23 @@ std::string Planes::finish() {
   return fault;
 }
 
-ReflexTiming Planes::timing() const {
-  if (reflex_times_.empty()) {
-    return {};
+PlanesTiming Planes::timing() const {
+  PlanesTiming timing;
+  if (!reflex_times_.empty()) {
+    std::vector<double> sorted = reflex_times_;
+    std::sort(sorted.begin(), sorted.end());
+    timing = {.calls = sorted.size(),
+              .p50 = sorted[sorted.size() / 2],
+              .max = sorted.back(),
+              .sum = std::accumulate(sorted.begin(), sorted.end(), 0.0)};
   }
-  std::vector<double> sorted = reflex_times_;
-  std::sort(sorted.begin(), sorted.end());
-  return {sorted.size(), sorted[sorted.size() / 2], sorted.back()};
+  if (thinking_ != nullptr) {
+    timing.thinking = thinking_->computed();
+  }
+  if (forecasting_ != nullptr) {
+    timing.forecasting = forecasting_->computed();
+  }
+  return timing;
 }
 
 }  // namespace saca::runtime

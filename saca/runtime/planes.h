@@ -51,11 +51,16 @@ struct PlanesSetup {
 /// What the reflex plane of this setup decides with.
 [[nodiscard]] reflex::ReflexTools reflex_tools(const PlanesSetup& setup);
 
-/// How long the reflex plane took.
-struct ReflexTiming {
-  std::size_t calls = 0;
-  double p50 = 0.0;  ///< [s]
-  double max = 0.0;  ///< [s]
+/// How long the planes took.
+struct PlanesTiming {
+  std::size_t calls = 0;  ///< of the reflex plane
+  double p50 = 0.0;       ///< of them [s]
+  double max = 0.0;       ///< likewise [s]
+  double sum = 0.0;       ///< likewise [s]
+  /// Processor time of the thinking plane's thread and of the forecaster's [s]; nullopt in
+  /// lockstep.
+  std::optional<double> thinking;
+  std::optional<double> forecasting;
 };
 
 /// SACA: its reflex plane, its forecaster and its thinking plane, joined at either pace;
@@ -121,7 +126,7 @@ class Planes {
   [[nodiscard]] const std::vector<arbitration::Preview>& previews() const {
     return plane_.previews();
   }
-  [[nodiscard]] ReflexTiming timing() const;
+  [[nodiscard]] PlanesTiming timing() const;
 
  private:
   [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }

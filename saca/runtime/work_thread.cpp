@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "saca/base/core/processor_time.h"
+
 namespace saca::runtime {
 namespace {
 
@@ -42,6 +44,7 @@ void WorkThread::run(const std::stop_token& stop) {
     }
     clock_.wait_until_or_stop(clock_.now() + breath_, stop);
   }
+  computed_ = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
 void WorkThread::note(const std::string& fault) {

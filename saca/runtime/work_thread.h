@@ -51,6 +51,9 @@ class WorkThread {
   /// @return  what was thrown there first; empty when nothing was
   std::string finish();
 
+  /// Once finished: processor time of the thread [s].
+  [[nodiscard]] double computed() const { return computed_; }
+
  private:
   void run(const std::stop_token& stop);
   void note(const std::string& fault);
@@ -59,7 +62,8 @@ class WorkThread {
   Clock& clock_;
   Clock::Time breath_;
   Work work_;
-  std::string fault_;  ///< of the thread until it has ended
+  std::string fault_;      ///< of the thread until it has ended
+  double computed_ = 0.0;  ///< likewise
   std::jthread thread_;
 };
 

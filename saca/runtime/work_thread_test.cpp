@@ -5,6 +5,7 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "saca/base/core/processor_time.h"
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/runtime/wreck_for_test.h"
@@ -89,6 +90,27 @@ TEST(WorkThread, DoesNotWaitForAModelWhenItEnds) {
   EXPECT_EQ(thread.finish(), "");
   EXPECT_LT(clock.now(), model.last_deadline());
   EXPECT_EQ(plane.deadline_misses(), 0);
+}
+
+TEST(WorkThread, TellsItsProcessorTimeAndNotItsWaiting) {
+  MeetingClock clock(2);  // this thread and the working one
+  LatestSlot<TimedScene> scenes;
+  constexpr double worked = 0.02;  // [s]
+  std::atomic<bool> done{false};
+  WorkThread thread(scenes, clock, breath, [&](const TimedScene&, const std::stop_token&) {
+    const double begin = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+    while (processor_seconds(CLOCK_THREAD_CPUTIME_ID) < begin + worked) {
+    }
+    done = true;
+  });
+  scenes.publish({});
+  while (!done) {
+    clock.wait_until(clock.now() + breath);
+  }
+  clock.wait_until(clock.now() + std::chrono::hours(1));
+  EXPECT_EQ(thread.finish(), "");
+  EXPECT_GE(thread.computed(), worked);
+  EXPECT_LT(thread.computed(), 600.0);  // the hour was waited for
 }
 
 // Whatever is thrown in one round: it is told, and the next round is worked.

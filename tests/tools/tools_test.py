@@ -1,6 +1,7 @@
 """The scripts under tools/ that measure."""
 import gzip
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -42,3 +43,20 @@ def test_cases_are_shipped_rounded_and_without_shipped_scenarios(tmp_path):
         assert [json.loads(line) for line in text] == [{"schema": "saca.cases/1", "cases": 1}, {"source": "100car_1", "harm": 0.12346, "id": 7}]
     refused = subprocess.run([ROOT / "tools" / "shippable_cases.py", tmp_path / "none", out], capture_output=True, text=True, check=False)
     assert refused.returncode == 1 and "none: want a file of cases" in refused.stderr
+
+
+def test_what_a_fleet_knows_grows_with_its_vehicles(tmp_path):
+    """Every encounter belongs to one vehicle with its twin, and all of them together know all cases."""
+    queries = tmp_path / "queries.jsonl"
+    subprocess.run([os.environ.get("SACA_PROGRAM", ROOT / "build" / "release" / "saca"), "memory", "build", "crossing", "--count", "8", "--draws", "2", "--split", "calibration", "-o", queries],
+                   check=True, capture_output=True)
+    told = tool("fleet.py", queries, queries, "--vehicles", "4", "--json")
+    assert told.returncode == 0, told.stderr
+    rows = json.loads(told.stdout)["vehicles"]
+    assert [row["vehicles"] for row in rows] == [1, 2, 4]
+    with queries.open(encoding="utf-8") as lines:
+        everything = json.loads(next(lines))["cases"]
+    for row in rows[:2]:
+        assert sum(group["cases"] for group in row["groups"]) == everything  # dealt, none twice
+    assert rows[2]["groups"][0]["cases"] == everything
+    assert tool("fleet.py", tmp_path / "none", queries).returncode == 1

@@ -294,7 +294,7 @@ void Encounter::conclude() {
   if (setup_.danger != nullptr) {
     record_.danger_maps = danger_maps(record_, *setup_.danger);
   }
-  record_.reflex = avoider_.planes().timing();
+  record_.timing = avoider_.planes().timing();
   if (setup_.tapes) {
     runtime::TapeHeader header = runtime::tape_header(planes_setup(setup_), *setup_.intent);
     header.car = setup_.scenario->car;

@@ -93,7 +93,7 @@ struct Record {
   std::optional<Error> not_stored;               ///< why memory could not learn it
   std::optional<language_model::Review> review;  ///< see encounter/review.h
   std::optional<runtime::TapeFile> tape;         ///< its program is left empty
-  runtime::ReflexTiming reflex;
+  runtime::PlanesTiming timing;
   int deadline_misses = 0;
 };
 

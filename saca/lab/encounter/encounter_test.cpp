@@ -433,8 +433,8 @@ TEST_F(EncounterTest, TheSameRunGivesTheSameRecordByteForByte) {
                          .clock = &clock_};
   Record a = play(scenario, &model).value();
   Record b = play(scenario, &model).value();
-  a.reflex = {};  // measured in real time
-  b.reflex = {};
+  a.timing = {};  // measured in real time
+  b.timing = {};
   EXPECT_EQ(record_json(setup, a), record_json(setup, b));
 }
 
