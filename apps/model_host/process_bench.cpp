@@ -56,7 +56,8 @@ void in_this_process(benchmark::State& state) {
   const std::string scene = scene_part();
   for (auto _ : state) {
     benchmark::DoNotOptimize(engine->ask({scene}, clock.now() + without_haste,
-                                         static_cast<int>(state.range(0)), clock, nobody));
+                                         {.max_tokens = static_cast<int>(state.range(0))}, clock,
+                                         nobody));
   }
 }
 

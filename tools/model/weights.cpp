@@ -27,11 +27,14 @@ namespace {
 using saca::model_host::AskFigures;
 using saca::model_host::Engine;
 
-constexpr int rounds = 2;         // the best of them counts: the machine may be busy
+constexpr int rounds = 3;         // the best of them counts: the machine may be busy
 constexpr int reply_tokens = 60;  // per scene and round: as many as replies have
 // A round that takes longer than this measures how busy the machine is, not the weights [s].
 constexpr auto longest_round = std::chrono::seconds(30);
 constexpr std::string_view too_busy = "machine too busy to measure";
+// What takes less of the other's time by no more than this is as fast: best rounds of the same
+// weights differ by 2 %.
+constexpr double as_fast = 0.97;
 // Largest change of an answer's probability that still counts as deciding alike: rounding alone
 // moves the untuned model's flat distribution by 0.03.
 constexpr double probability_tolerance = 0.05;
@@ -106,7 +109,8 @@ std::string measure(Engine& engine, const std::vector<std::string>& scenes, Meas
         }
       }};
   const auto begin = clock.now();
-  const auto asked = engine.ask(scenes, begin + longest_round, reply_tokens, clock, events);
+  const auto asked =
+      engine.ask(scenes, begin + longest_round, {.max_tokens = reply_tokens}, clock, events);
   if (!asked.has_value()) {
     return asked.error().message;
   }
@@ -209,7 +213,7 @@ int choose(const std::string& prompt_file, const std::string& out,
   if (const std::string error = measure_all(prompts, both); !error.empty()) {
     return told(error);
   }
-  const bool flash = decides_alike(both[1]) && both[1].seconds < both[0].seconds;
+  const bool flash = decides_alike(both[1]) && both[1].seconds < as_fast * both[0].seconds;
   all.insert(all.end(), both.begin(), both.end());
   nlohmann::ordered_json json{{"schema", "saca.weights/1"}, {"processor", processor()}};
   for (const Measurement& m : all) {
