@@ -169,6 +169,53 @@ void sort_by_lot(std::vector<eval::CrashCase>& cases) {
             [&](const auto& a, const auto& b) { return lot(a) < lot(b); });
 }
 
+/// The cases of the set, the first few of a lot.
+/// @return  out_of_range: there is none
+std::optional<Error> choose_cases(std::vector<eval::CrashCase>& cases,
+                                  const CasesEvalOptions& options) {
+  const eval::ExampleSet set = eval::example_set_from(options.set).value();
+  std::erase_if(cases, [set](const eval::CrashCase& one) {
+    return eval::set_of_record(one.record.name) != set;
+  });
+  sort_by_lot(cases);
+  if (options.count > 0 && cases.size() > options.count) {
+    cases.resize(options.count);
+  }
+  return cases.empty() ? std::optional(Error{Error::Code::out_of_range,
+                                             options.examples.file + ": want cases of the " +
+                                                 options.set + " set, got none"})
+                       : std::nullopt;
+}
+
+/// What is replied about each case; nullopt: interrupted.
+Result<std::optional<std::vector<ReplyRow>>> replies_to(const ExampleSource& source,
+                                                        language_model::LanguageModel& model,
+                                                        const Clock& clock,
+                                                        const CasesEvalOptions& options) {
+  std::optional<Error> failure;
+  return rows_of<ReplyRow>(
+      {.journal = options.output + ".journal",
+       .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",
+                            version_text(), options.set, options.examples.car,
+                            options.examples.seed, source.digest, model.description()),
+       .progress = "replies",
+       .unit = "cases",
+       .count = source.cases.size(),
+       .threads = 1,  // the model uses all cores
+       .row =
+           [&](std::size_t i) {
+             return asked_about(drawn_examples(source.cases[i], source, options.examples), model,
+                                clock, failure);
+           },
+       .line_of = items_line<ExampleReply>,
+       .row_from =
+           [](const std::string& line) {
+             return items_row<ExampleReply>(line, eval::example_reply_from_json);
+           },
+       .spoilt_by_interrupt = true,  // it reaches the model's process, too
+       .failure = [&failure] { return failure; }});
+}
+
 int eval_cases(const CasesEvalOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.output})) {
     return refused(*problem);
@@ -179,21 +226,12 @@ int eval_cases(const CasesEvalOptions& options) {
     return refused(opened.error());
   }
   ExampleSource source = std::move(opened).value();
-  const eval::ExampleSet set = eval::example_set_from(options.set).value();
-  std::erase_if(source.cases, [set](const eval::CrashCase& one) {
-    return eval::set_of_record(one.record.name) != set;
-  });
   std::map<std::string, std::size_t> places;  // in the file
   for (const eval::CrashCase& one : source.cases) {
     places.emplace(one.record.name, places.size());
   }
-  sort_by_lot(source.cases);
-  if (options.count > 0 && source.cases.size() > options.count) {
-    source.cases.resize(options.count);
-  }
-  if (source.cases.empty()) {
-    return refused({Error::Code::out_of_range, options.examples.file + ": want cases of the " +
-                                                   options.set + " set, got none"});
+  if (const auto problem = choose_cases(source.cases, options)) {
+    return refused(*problem);
   }
   SteadyClock clock;
   const auto model = open_needed_model(source.planes->inputs.places, options.model,
@@ -201,32 +239,7 @@ int eval_cases(const CasesEvalOptions& options) {
   if (!model.has_value()) {
     return refused(model.error());
   }
-  const std::string description = model.value()->description();
-  const std::string command =
-      fmt::format("cases eval {} --set {} --llm {} {}", options.examples.file, options.set,
-                  options.model, example_text(options.examples));
-  std::optional<Error> failure;
-  auto rows = rows_of<ReplyRow>(
-      {.journal = options.output + ".journal",
-       .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",
-                            version_text(), options.set, options.examples.car,
-                            options.examples.seed, source.digest, description),
-       .progress = "replies",
-       .unit = "cases",
-       .count = source.cases.size(),
-       .threads = 1,  // the model uses all cores
-       .row =
-           [&](std::size_t i) {
-             return asked_about(drawn_examples(source.cases[i], source, options.examples),
-                                *model.value(), clock, failure);
-           },
-       .line_of = items_line<ExampleReply>,
-       .row_from =
-           [](const std::string& line) {
-             return items_row<ExampleReply>(line, eval::example_reply_from_json);
-           },
-       .spoilt_by_interrupt = true,  // it reaches the model's process, too
-       .failure = [&failure] { return failure; }});
+  auto rows = replies_to(source, *model.value(), clock, options);
   if (!rows.has_value()) {
     return refused(rows.error());
   }
@@ -248,7 +261,12 @@ int eval_cases(const CasesEvalOptions& options) {
     return refused(*problem);
   }
   const ReplyScore score = eval::reply_score(replies, options.examples.seed);
+  const std::string description = model.value()->description();
   if (options.as_json) {
+    const std::string command =
+        fmt::format("cases eval {} --set {}{} --llm {} {}", options.examples.file, options.set,
+                    options.count > 0 ? fmt::format(" --count {}", options.count) : "",
+                    options.model, example_text(options.examples));
     app::print_json(figures_of(score, failed, command, description));
   } else {
     print(score, options, description);

@@ -201,115 +201,160 @@ std::optional<Error> why_unwritable(const RunOptions& options, const std::string
                                  options.record_replies});
 }
 
-int run(const RunOptions& options) {
-  const auto inputs = read_scenario_inputs(options.scenario);
+/// All that a run is made with.
+struct Means {
+  ScenarioInputs inputs;
+  encounter::Provenance provenance;
+  runtime::ThinkingCosts costs;
+  std::optional<atlas::Atlas> atlas;
+  std::optional<danger::DangerModel> danger;
+  std::shared_ptr<memory::Store> memory;
+  ChosenModel model;
+  std::optional<manoeuvre::Plan> forced;
+};
+
+fs::path folder_of(const RunOptions& options, const Means& means) {
+  return fs::path(options.output) / means.inputs.scenario.name;
+}
+
+fs::path report_of(const RunOptions& options, const Means& means) {
+  return options.report.empty() ? folder_of(options, means) / "report.html"
+                                : fs::path(options.report);
+}
+
+runtime::Pace pace_of(const RunOptions& options) {
+  return options.pace == "real" ? runtime::Pace::real : runtime::Pace::lockstep;
+}
+
+/// @param clock  outlives them
+Result<std::unique_ptr<Means>> open_means(const RunOptions& options, Clock& clock) {
+  auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
-    return refused(inputs.error());
+    return inputs.error();
   }
   if (const auto problem = why_unwritable(options, inputs.value().scenario.name)) {
-    return refused(*problem);
+    return *problem;
   }
-  const auto provenance = provenance_of(inputs.value(), options.scenario);
+  auto provenance = provenance_of(inputs.value(), options.scenario);
   if (!provenance.has_value()) {
-    return refused(provenance.error());
+    return provenance.error();
   }
   const auto costs = read_costs(inputs.value().places);
   if (!costs.has_value()) {
-    return refused(costs.error());
+    return costs.error();
   }
-  const auto atlas = open_atlas(options, inputs.value());
+  auto atlas = open_atlas(options, inputs.value());
   if (!atlas.has_value()) {
-    return refused({atlas.error().code, atlas.error().message + " (--atlas off does without)"});
+    return Error{atlas.error().code, atlas.error().message + " (--atlas off does without)"};
   }
-  const auto danger = open_danger(options, inputs.value());
+  auto danger = open_danger(options, inputs.value());
   if (!danger.has_value()) {
-    return refused(danger.error());
+    return danger.error();
   }
-  const auto memory = open_memory(options, inputs.value());
+  auto memory = open_memory(options, inputs.value());
   if (!memory.has_value()) {
-    return refused(memory.error());
+    return memory.error();
   }
-  SteadyClock clock;
-  const runtime::Pace pace = options.pace == "real" ? runtime::Pace::real : runtime::Pace::lockstep;
-  const auto model = ChosenModel::open(inputs.value().places, options.thinking.model,
-                                       options.record_replies, pace, clock);
+  auto model = ChosenModel::open(inputs.value().places, options.thinking.model,
+                                 options.record_replies, pace_of(options), clock);
   if (!model.has_value()) {
-    return refused(model.error());
+    return model.error();
   }
-
-  const auto forced = forced_plan(options);
+  auto forced = forced_plan(options);
   if (!forced.has_value()) {
-    return refused(forced.error());
+    return forced.error();
   }
-  const encounter::Setup setup{.scenario = &inputs.value().scenario,
-                               .car = &inputs.value().car,
-                               .harm = &inputs.value().harm,
-                               .intent = &inputs.value().intent,
-                               .atlas = atlas.value() ? &*atlas.value() : nullptr,
-                               .danger = danger.value() ? &*danger.value() : nullptr,
-                               .cues = &inputs.value().cues,
-                               .thresholds = thresholds_of(options),
-                               .pace = pace,
-                               .costs = costs.value(),
-                               .model = model.value().get(),
-                               .memory = memory.value().get(),
-                               .learns = !options.no_learning,
-                               .forced = forced.value(),
-                               .seed = options.seed,
-                               .tapes = !options.tape.empty(),
-                               .clock = &clock};
-  std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
-  const bool silent = options.as_json || settings().quiet;
-  Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO), wants_colours(STDOUT_FILENO));
-  story.headline(inputs.value().scenario, setup);
-  auto played = encounter::run(setup, story);
-  if (!played.has_value()) {
-    return refused(played.error());
-  }
-  encounter::Record record = std::move(played).value();
-  std::string text = encounter::record_json(setup, record, &provenance.value());
-  story.ending(inputs.value().scenario, record, in_short(text));
-  // What was played is written down even if nobody wants to wait for the review.
-  watch_for_interrupt();
+  return std::make_unique<Means>(Means{std::move(inputs).value(), std::move(provenance).value(),
+                                       costs.value(), std::move(atlas).value(),
+                                       std::move(danger).value(), std::move(memory).value(),
+                                       std::move(model).value(), forced.value()});
+}
+
+encounter::Setup setup_of(const Means& means, const RunOptions& options, Clock& clock) {
+  return {.scenario = &means.inputs.scenario,
+          .car = &means.inputs.car,
+          .harm = &means.inputs.harm,
+          .intent = &means.inputs.intent,
+          .atlas = means.atlas ? &*means.atlas : nullptr,
+          .danger = means.danger ? &*means.danger : nullptr,
+          .cues = &means.inputs.cues,
+          .thresholds = thresholds_of(options),
+          .pace = pace_of(options),
+          .costs = means.costs,
+          .model = means.model.get(),
+          .memory = means.memory.get(),
+          .learns = !options.no_learning,
+          .forced = means.forced,
+          .seed = options.seed,
+          .tapes = !options.tape.empty(),
+          .clock = &clock};
+}
+
+/// Has the model tell its reasons anew where they did not hold, and look back.
+void look_back(const encounter::Setup& setup, encounter::Record& record, Story& story) {
   const InterruptStop interrupt;
-  if (options.review && setup.model != nullptr) {
+  if (setup.model != nullptr) {
     for (arbitration::Preview& preview : record.previews) {
-      preview.retold = arbitration::retold(preview, *setup.model, clock, interrupt.token());
+      preview.retold = arbitration::retold(preview, *setup.model, *setup.clock, interrupt.token());
     }
-    text = encounter::record_json(setup, record, &provenance.value());
   }
-  const auto review =
-      options.review ? encounter::review(
-                           setup, record, [&](std::string_view said) { story.on_review(said); },
-                           interrupt.token())
-                     : Result<std::optional<language_model::Review>>(std::nullopt);
+  const auto review = encounter::review(
+      setup, record, [&](std::string_view said) { story.on_review(said); }, interrupt.token());
   if (!review.has_value()) {
     complain("no review: " + review.error().message);
   } else if (review.value()) {
     record.review = review.value();
     story.on_truth(record.review->truth);
-    text = encounter::record_json(setup, record, &provenance.value());
     if (record.stored) {
-      record.not_stored = encounter::keep_lesson(*memory.value(), *record.stored, *record.review);
+      record.not_stored = encounter::keep_lesson(*setup.memory, *record.stored, *record.review);
     }
   }
-  const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
-  const fs::path report =
-      options.report.empty() ? folder / "report.html" : fs::path(options.report);
-  auto problem = write_outputs(text, folder, report);
+}
+
+/// Everything that is asked for, until something cannot be written.
+std::optional<Error> write_all(const RunOptions& options, const Means& means,
+                               const encounter::Setup& setup, const encounter::Record& record,
+                               const std::string& text) {
+  auto problem = write_outputs(text, folder_of(options, means), report_of(options, means));
   if (!problem && !options.trace.empty()) {
     problem = write_trace(options.trace, setup, record);
   }
   if (!problem && record.tape) {
     problem = write_tape(options.tape, *record.tape);
   }
-  if (!problem) {
-    problem = model.value().save_replies();
+  return problem ? problem : means.model.save_replies();
+}
+
+int run(const RunOptions& options) {
+  SteadyClock clock;
+  const auto opened = open_means(options, clock);
+  if (!opened.has_value()) {
+    return refused(opened.error());
   }
+  const Means& means = *opened.value();
+  const encounter::Setup setup = setup_of(means, options, clock);
+  std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
+  const bool silent = options.as_json || settings().quiet;
+  Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO), wants_colours(STDOUT_FILENO));
+  story.headline(means.inputs.scenario, setup);
+  auto played = encounter::run(setup, story);
+  if (!played.has_value()) {
+    return refused(played.error());
+  }
+  encounter::Record record = std::move(played).value();
+  std::string text = encounter::record_json(setup, record, &means.provenance);
+  story.ending(means.inputs.scenario, record, in_short(text));
+  // What was played is written down even if nobody wants to wait for the review.
+  watch_for_interrupt();
+  if (options.review) {
+    look_back(setup, record, story);
+    text = encounter::record_json(setup, record, &means.provenance);
+  }
+  auto problem = write_all(options, means, setup, record, text);
   if (options.as_json) {
     app::print("{}\n", text);
   } else if (!problem) {
-    story.on_report(fs::absolute(report).string());
+    story.on_report(fs::absolute(report_of(options, means)).string());
   }
   if (!problem) {
     problem = record.not_stored ? record.not_stored : story.problem();

@@ -22,26 +22,27 @@ std::size_t string_length(std::string_view text) {
   return at;
 }
 
-}  // namespace
-
-std::optional<TomlExcess> beyond(const TomlBounds& bounds, std::string_view text) {
-  if (text.size() > bounds.bytes) {
-    return TomlExcess{1, "want at most " + std::to_string(bounds.bytes) + " bytes, got " +
-                             std::to_string(text.size())};
+// Bytes of the string or comment that begins a text, else 1.
+std::size_t piece_length(std::string_view text) {
+  switch (text.front()) {
+    case '"':
+    case '\'':
+      return string_length(text);
+    case '#':
+      return std::min(text.find('\n'), text.size());
+    default:
+      return 1;
   }
-  std::size_t line = 1;
+}
+
+// How deep a text is, after what was taken of it.
+struct Nesting {
   std::size_t depth = 0;
   std::size_t dots = 0;  // of a key, or a number: since what can stand between two of them
-  while (!text.empty()) {
-    std::size_t length = 1;
-    switch (text.front()) {
-      case '"':
-      case '\'':
-        length = string_length(text);
-        break;
-      case '#':
-        length = std::min(text.find('\n'), text.size());
-        break;
+
+  // What begins a piece.
+  void take(char first) {
+    switch (first) {
       case '[':
       case '{':
         ++depth;
@@ -63,17 +64,31 @@ std::optional<TomlExcess> beyond(const TomlBounds& bounds, std::string_view text
       default:
         break;
     }
-    if (depth > bounds.depth) {
+  }
+};
+
+}  // namespace
+
+std::optional<TomlExcess> beyond(const TomlBounds& bounds, std::string_view text) {
+  if (text.size() > bounds.bytes) {
+    return TomlExcess{1, "want at most " + std::to_string(bounds.bytes) + " bytes, got " +
+                             std::to_string(text.size())};
+  }
+  std::size_t line = 1;
+  Nesting nesting;
+  while (!text.empty()) {
+    const std::string_view taken = text.substr(0, piece_length(text));
+    nesting.take(taken.front());
+    if (nesting.depth > bounds.depth) {
       return TomlExcess{line, "want arrays and tables within each other at most " +
                                   std::to_string(bounds.depth) + " deep, got more"};
     }
-    if (dots >= bounds.depth) {
+    if (nesting.dots >= bounds.depth) {
       return TomlExcess{
           line, "want keys of at most " + std::to_string(bounds.depth) + " parts, got one of more"};
     }
-    const std::string_view taken = text.substr(0, length);
     line += static_cast<std::size_t>(std::count(taken.begin(), taken.end(), '\n'));
-    text.remove_prefix(length);
+    text.remove_prefix(taken.size());
   }
   return std::nullopt;
 }

@@ -49,8 +49,18 @@ Result<FarsCodes> FarsCodes::read(std::string_view text, std::string_view source
   root.want_schema("saca.fars_codes/1");
   (void)root.text("source");
   FarsCodes codes;
+  codes.read_meanings(root);
+  codes.read_bodies(root);
+  codes.read_speeds(root);
+  if (const auto error = document.value().error()) {
+    return *error;
+  }
+  return codes;
+}
+
+void FarsCodes::read_meanings(Table& root) {
   const auto add = [&](std::string_view column, Table& row, int code) {
-    auto& table = codes.meanings_[std::string(column)];
+    auto& table = meanings_[std::string(column)];
     if (!table.emplace(code, row.text("meaning")).second) {
       row.reject("code", fmt::format("want each code once, got {} again", code));
     }
@@ -60,6 +70,14 @@ Result<FarsCodes> FarsCodes::read(std::string_view text, std::string_view source
       add(column, row, code_of(row, "code"));
     }
   }
+  for (Table row : root.tables("VSURCOND")) {
+    const int code = code_of(row, "code");
+    add("VSURCOND", row, code);
+    grips_[code] = read_span(row, "grip_min", "grip_max", {0.2, 1.0});
+  }
+}
+
+void FarsCodes::read_bodies(Table& root) {
   for (Table row : root.tables("BODY_TYP")) {
     const std::string kind = row.text("kind");
     Body body{.first = code_of(row, "code"),
@@ -69,13 +87,11 @@ Result<FarsCodes> FarsCodes::read(std::string_view text, std::string_view source
     if (!body.kind && kind != "none") {
       row.reject("kind", "want car, van, truck, motorcycle or none, got \"" + kind + "\"");
     }
-    codes.bodies_.push_back(std::move(body));
+    bodies_.push_back(std::move(body));
   }
-  for (Table row : root.tables("VSURCOND")) {
-    const int code = code_of(row, "code");
-    add("VSURCOND", row, code);
-    codes.grips_[code] = read_span(row, "grip_min", "grip_max", {0.2, 1.0});
-  }
+}
+
+void FarsCodes::read_speeds(Table& root) {
   for (Table row : root.tables("speed_over_limit")) {
     const std::string role = row.text("role");
     const auto known = value_from<SpeedRole>(role, role_names);
@@ -84,16 +100,12 @@ Result<FarsCodes> FarsCodes::read(std::string_view text, std::string_view source
                              role + "\"");
     }
     (void)row.integer("n", 1, 1'000'000'000);
-    codes.speeds_[known.value_or(SpeedRole::straight)] = read_span(row, "min", "max", {0.01, 5.0});
+    speeds_[known.value_or(SpeedRole::straight)] = read_span(row, "min", "max", {0.01, 5.0});
   }
-  if (codes.speeds_.size() != role_names.size()) {
+  if (speeds_.size() != role_names.size()) {
     root.reject("speed_over_limit", fmt::format("want one entry a role, {}, got {}",
-                                                role_names.size(), codes.speeds_.size()));
+                                                role_names.size(), speeds_.size()));
   }
-  if (const auto error = document.value().error()) {
-    return *error;
-  }
-  return codes;
 }
 
 Result<FarsCodes> FarsCodes::load(const std::filesystem::path& file) {

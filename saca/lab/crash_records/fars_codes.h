@@ -11,6 +11,10 @@
 #include "saca/base/world/scene.h"
 #include "saca/lab/crash_records/fars.h"
 
+namespace saca::config {
+class Table;
+}
+
 namespace saca::crash_records {
 
 /// Both ends of what a number may be.
@@ -48,6 +52,12 @@ class FarsCodes {
     std::optional<world::ActorKind> kind;
     std::string meaning;
   };
+
+  // What is wrong is the document's to tell.
+  void read_meanings(config::Table& root);  ///< and grips
+  void read_bodies(config::Table& root);
+  void read_speeds(config::Table& root);
+
   std::map<std::string, std::map<int, std::string>, std::less<>> meanings_;
   std::vector<Body> bodies_;
   std::map<int, Span> grips_;

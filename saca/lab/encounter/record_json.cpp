@@ -344,87 +344,100 @@ json after_t2(const Record& record, arbitration::EventKind kind) {
   return found->time - t2->time;
 }
 
+/// As a list.
+template <class Things>
+json list_json(const Things& things, json (*one_json)(const typename Things::value_type&)) {
+  json list = json::array();
+  std::transform(things.begin(), things.end(), std::back_inserter(list), one_json);
+  return list;
+}
+
+json event_json(const arbitration::Event& event) {
+  return {{"t_s", event.time},
+          {"plane", name(event.plane)},
+          {"kind", name(event.kind)},
+          {"text", event.text}};
+}
+
+json scenario_json(const scenario::Scenario& scenario) {
+  return {{"name", scenario.name},
+          {"title", scenario.title},
+          {"source", scenario.source},
+          {"licence", scenario.licence},
+          {"driver", scenario.driver.empty() ? json(nullptr) : json(scenario.driver)}};
+}
+
+json thresholds_json(const reflex::Thresholds& thresholds) {
+  return {{"trigger_s", thresholds.trigger},
+          {"preview_s", thresholds.preview},
+          {"waiting_cost", number_or_null(thresholds.waiting_cost)},
+          {"earliest_swerve_s", thresholds.earliest_swerve},
+          {"material_harm", reflex::material_harm}};
+}
+
+json ego_body_json(const manoeuvre::Car& car) {
+  const world::Footprint body = manoeuvre::footprint(car);
+  return {{"length_m", body.length},
+          {"width_m", body.width},
+          {"centre_x_m", body.centre_x},
+          {"front_axle_x_m", car.cg_to_front_axle},
+          {"rear_axle_x_m", -car.cg_to_rear_axle},
+          {"track_m", car.track_width}};
+}
+
+json review_json(const std::optional<language_model::Review>& review) {
+  return review ? json{{"prompt", review->prompt},
+                       {"text", review->text},
+                       {"explanation", language_model::explanation_json(review->shown)},
+                       {"truth", language_model::truth_json(review->truth)}}
+                : json(nullptr);
+}
+
+json timing_json(const Record& record) {
+  return {{"reflex_calls", record.timing.calls},
+          {"reflex_us_p50", 1e6 * record.timing.p50},
+          {"reflex_us_max", 1e6 * record.timing.max},
+          {"reflex_us_sum", 1e6 * record.timing.sum},
+          {"thinking_cpu_s", number_or_null(record.timing.thinking)},
+          {"verdict_cpu_s", number_or_null(record.timing.forecasting)},
+          {"preview_s", after_t2(record, arbitration::EventKind::forecast)},
+          {"first_answer_s", after_t2(record, arbitration::EventKind::first_answer)},
+          {"answer_s", after_t2(record, arbitration::EventKind::answer)},
+          {"deadline_misses", record.deadline_misses}};
+}
+
 }  // namespace
 
 std::string record_json(const Setup& setup, const Record& record, const Provenance* provenance) {
   const scenario::Scenario& scenario = *setup.scenario;
-  const world::Footprint body = manoeuvre::footprint(*setup.car);
-  json frames = json::array();
-  std::transform(record.frames.begin(), record.frames.end(), std::back_inserter(frames),
-                 frame_json);
-  json events = json::array();
-  for (const arbitration::Event& event : record.events) {
-    events.push_back({{"t_s", event.time},
-                      {"plane", name(event.plane)},
-                      {"kind", name(event.kind)},
-                      {"text", event.text}});
-  }
-  json intentions = json::array();
-  std::transform(record.intentions.begin(), record.intentions.end(), std::back_inserter(intentions),
-                 intentions_json);
-  json previews = json::array();
-  std::transform(record.previews.begin(), record.previews.end(), std::back_inserter(previews),
-                 preview_json);
-  json out{
-      {"schema", "saca.record/1"},
-      {"scenario",
-       {{"name", scenario.name},
-        {"title", scenario.title},
-        {"source", scenario.source},
-        {"licence", scenario.licence},
-        {"driver", scenario.driver.empty() ? json(nullptr) : json(scenario.driver)}}},
-      {"pace", name(setup.pace)},
-      {"model", setup.model == nullptr ? "off" : setup.model->description()},
-      {"atlas", setup.atlas != nullptr},
-      {"grip", record.grip},
-      {"thresholds",
-       {{"trigger_s", setup.thresholds.trigger},
-        {"preview_s", setup.thresholds.preview},
-        {"waiting_cost", number_or_null(setup.thresholds.waiting_cost)},
-        {"earliest_swerve_s", setup.thresholds.earliest_swerve},
-        {"material_harm", reflex::material_harm}}},
-      {"road", road_json(scenario.road)},
-      {"cues", memory::cues_json(scenario.cues)},
-      {"ego",
-       {{"length_m", body.length},
-        {"width_m", body.width},
-        {"centre_x_m", body.centre_x},
-        {"front_axle_x_m", setup.car->cg_to_front_axle},
-        {"rear_axle_x_m", -setup.car->cg_to_rear_axle},
-        {"track_m", setup.car->track_width}}},
-      {"actors", actor_bodies_json(scenario)},
-      {"frames", frames},
-      {"intentions", intentions},
-      {"events", events},
-      {"previews", previews},
-      {"decision", decision_json(record)},
-      {"switches", switches_json(record)},
-      {"verdicts", verdicts_json(record.verdicts)},
-      {"hypotheses", hypotheses_json(record.verdicts)},
-      {"result", result_json(record)},
-      {"driver",
-       record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
-      {"hindsight", hindsight_json(record)},
-      {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
-      {"danger_maps", danger_maps_json(record.danger_maps)},
-      {"review", record.review
-                     ? json{{"prompt", record.review->prompt},
-                            {"text", record.review->text},
-                            {"explanation", language_model::explanation_json(record.review->shown)},
-                            {"truth", language_model::truth_json(record.review->truth)}}
-                     : json(nullptr)},
-      {"case", record.stored ? json(*record.stored) : json(nullptr)},
-      {"timing",
-       {{"reflex_calls", record.timing.calls},
-        {"reflex_us_p50", 1e6 * record.timing.p50},
-        {"reflex_us_max", 1e6 * record.timing.max},
-        {"reflex_us_sum", 1e6 * record.timing.sum},
-        {"thinking_cpu_s", number_or_null(record.timing.thinking)},
-        {"verdict_cpu_s", number_or_null(record.timing.forecasting)},
-        {"preview_s", after_t2(record, arbitration::EventKind::forecast)},
-        {"first_answer_s", after_t2(record, arbitration::EventKind::first_answer)},
-        {"answer_s", after_t2(record, arbitration::EventKind::answer)},
-        {"deadline_misses", record.deadline_misses}}}};
+  json out{{"schema", "saca.record/1"},
+           {"scenario", scenario_json(scenario)},
+           {"pace", name(setup.pace)},
+           {"model", setup.model == nullptr ? "off" : setup.model->description()},
+           {"atlas", setup.atlas != nullptr},
+           {"grip", record.grip},
+           {"thresholds", thresholds_json(setup.thresholds)},
+           {"road", road_json(scenario.road)},
+           {"cues", memory::cues_json(scenario.cues)},
+           {"ego", ego_body_json(*setup.car)},
+           {"actors", actor_bodies_json(scenario)},
+           {"frames", list_json(record.frames, frame_json)},
+           {"intentions", list_json(record.intentions, intentions_json)},
+           {"events", list_json(record.events, event_json)},
+           {"previews", list_json(record.previews, preview_json)},
+           {"decision", decision_json(record)},
+           {"switches", switches_json(record)},
+           {"verdicts", verdicts_json(record.verdicts)},
+           {"hypotheses", hypotheses_json(record.verdicts)},
+           {"result", result_json(record)},
+           {"driver",
+            record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
+           {"hindsight", hindsight_json(record)},
+           {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
+           {"danger_maps", danger_maps_json(record.danger_maps)},
+           {"review", review_json(record.review)},
+           {"case", record.stored ? json(*record.stored) : json(nullptr)},
+           {"timing", timing_json(record)}};
   out = formats::with_short_numbers(std::move(out));
   if (provenance != nullptr) {
     out["made"] = made_json(setup, *provenance);

@@ -165,6 +165,33 @@ LoneRegret lone_regret(std::span<const std::vector<AtlasRow>> scenes) {
   return lone;
 }
 
+/// Of plans that the atlas covers, how often it is right about the contact.
+struct PlanTally {
+  int covered = 0;
+  int agree = 0;  ///< whether there is one
+  int both = 0;   ///< there is one, and it was told
+  int partner = 0;
+  int face = 0;
+  std::vector<double> speeds;      ///< by how much that of the impact is off [m/s]
+  std::vector<double> clearances;  ///< by how much that of a near miss is off [m]
+
+  void add(const AtlasRow& row) {
+    constexpr double near = 5.0;  // [m]
+    ++covered;
+    agree += row.told_contact == row.true_contact ? 1 : 0;
+    if (row.told_contact && row.true_contact) {
+      ++both;
+      partner += row.same_partner ? 1 : 0;
+      face += row.same_face ? 1 : 0;
+      if (row.same_partner) {
+        speeds.push_back(std::abs(row.speed_off));
+      }
+    } else if (!row.told_contact && !row.true_contact && row.true_clearance < near) {
+      clearances.push_back(std::abs(row.told_clearance - row.true_clearance));
+    }
+  }
+};
+
 }  // namespace
 
 std::array<AtlasRow, num_checked> atlas_rows(const DecisionPoint& point, const atlas::Atlas& atlas,
@@ -220,33 +247,15 @@ std::vector<AtlasRow> atlas_rows(const families::Family& family, std::uint64_t s
 
 AtlasFigures atlas_figures(std::span<const std::vector<AtlasRow>> rows) {
   AtlasFigures figures;
-  int covered = 0;
-  int agree = 0;
-  int both = 0;
-  int partner = 0;
-  int face = 0;
+  PlanTally tally;
   int same = 0;
-  std::vector<double> speeds;
-  std::vector<double> clearances;
   std::vector<double> regrets;
   for (const std::vector<AtlasRow>& scene : rows) {
     figures.scenes += scene.empty() ? 0 : 1;
     for (const AtlasRow& row : scene) {
       figures.plans += row.refused ? 0 : 1;
-      if (!usable(row)) {
-        continue;
-      }
-      ++covered;
-      agree += row.told_contact == row.true_contact ? 1 : 0;
-      if (row.told_contact && row.true_contact) {
-        ++both;
-        partner += row.same_partner ? 1 : 0;
-        face += row.same_face ? 1 : 0;
-        if (row.same_partner) {
-          speeds.push_back(std::abs(row.speed_off));
-        }
-      } else if (!row.told_contact && !row.true_contact && row.true_clearance < 5.0) {
-        clearances.push_back(std::abs(row.told_clearance - row.true_clearance));
+      if (usable(row)) {
+        tally.add(row);
       }
     }
     if (const Choice made = choice(scene); made.chosen != nullptr) {
@@ -256,14 +265,14 @@ AtlasFigures atlas_figures(std::span<const std::vector<AtlasRow>> rows) {
       figures.regret_mean += more;
     }
   }
-  figures.covered = proportion(covered, std::max(1, figures.plans));
-  figures.agreement = proportion(agree, std::max(1, covered));
-  figures.partner = proportion(partner, std::max(1, both));
-  figures.face = proportion(face, std::max(1, both));
-  figures.speed_p50 = percentile_or_none(speeds, 0.5);
-  figures.speed_p95 = percentile_or_none(speeds, 0.95);
-  figures.speed_max = percentile_or_none(speeds, 1.0);
-  figures.clearance_p95 = percentile_or_none(clearances, 0.95);
+  figures.covered = proportion(tally.covered, std::max(1, figures.plans));
+  figures.agreement = proportion(tally.agree, std::max(1, tally.covered));
+  figures.partner = proportion(tally.partner, std::max(1, tally.both));
+  figures.face = proportion(tally.face, std::max(1, tally.both));
+  figures.speed_p50 = percentile_or_none(tally.speeds, 0.5);
+  figures.speed_p95 = percentile_or_none(tally.speeds, 0.95);
+  figures.speed_max = percentile_or_none(tally.speeds, 1.0);
+  figures.clearance_p95 = percentile_or_none(tally.clearances, 0.95);
   figures.regret_p95 = percentile_or_none(regrets, 0.95);
   figures.same_choice = proportion(same, std::max(1, static_cast<int>(regrets.size())));
   figures.lone = lone_regret(rows);

@@ -193,6 +193,45 @@ Result<Curriculum> Curriculum::begin(CurriculumSetup setup, std::span<const Case
   return curriculum;
 }
 
+std::string Curriculum::compare_all(const SuiteEncounter& encounter, const encounter::Stage& stage,
+                                    Episode& episode) {
+  Hindsight hindsight(*stage.car, *stage.harm);
+  const runtime::PlanesSetup shared = with_shared_verdicts(setup_.saca);
+  std::vector<std::unique_ptr<encounter::Method>> methods;
+  std::vector<const encounter::SacaMethod*> learners;
+  for (const Learner who : all_learners) {
+    runtime::PlanesSetup saca = shared;
+    saca.memory = &of(who);
+    auto method = std::make_unique<encounter::SacaMethod>(saca, *setup_.intent);
+    learners.push_back(method.get());
+    methods.push_back(std::move(method));
+  }
+  for (const char* const name : {"beliefs_drawn", "beliefs_and_experience", "aeb"}) {
+    methods.push_back(make_method(name, {.saca = shared,
+                                         .hindsight = &hindsight,
+                                         .intent = setup_.intent,
+                                         .experience = &of(Learner::learning).experience(),
+                                         .seed = encounter_seed(setup_.seed, encounter.number)}));
+  }
+  auto compared = compare(stage, methods, hindsight);
+  if (!compared.has_value()) {
+    return compared.error().message;
+  }
+  episode.row.risk = std::move(compared).value();
+  const auto& runs = episode.row.risk.runs;
+  const auto faulty = std::find_if(runs.begin(), runs.end(),
+                                   [](const MethodRun& run) { return !run.fault.empty(); });
+  if (faulty != runs.end()) {
+    return faulty->fault;
+  }
+  for (std::size_t i = 0; i < num_learners; ++i) {
+    if (runs.at(i).harm > runs.back().harm + reflex::material_harm) {
+      episode.refuted.at(i) = learners.at(i)->followed();
+    }
+  }
+  return {};
+}
+
 Episode Curriculum::play(const SuiteEncounter& encounter) {
   EpisodeDraws draws(setup_.seed, encounter.number);
   const bool is_twin = draws.happens(0.5) && encounter.twin.has_value();
@@ -210,41 +249,9 @@ Episode Curriculum::play(const SuiteEncounter& encounter) {
   const encounter::Stage stage =
       stage_of(world, encounter.number, how, setup_.saca, *setup_.intent);
   try {
-    Hindsight hindsight(*stage.car, *stage.harm);
-    const runtime::PlanesSetup shared = with_shared_verdicts(setup_.saca);
-    std::vector<std::unique_ptr<encounter::Method>> methods;
-    std::vector<const encounter::SacaMethod*> learners;
-    for (const Learner who : all_learners) {
-      runtime::PlanesSetup saca = shared;
-      saca.memory = &of(who);
-      auto method = std::make_unique<encounter::SacaMethod>(saca, *setup_.intent);
-      learners.push_back(method.get());
-      methods.push_back(std::move(method));
-    }
-    for (const char* const name : {"beliefs_drawn", "beliefs_and_experience", "aeb"}) {
-      methods.push_back(make_method(name, {.saca = shared,
-                                           .hindsight = &hindsight,
-                                           .intent = setup_.intent,
-                                           .experience = &of(Learner::learning).experience(),
-                                           .seed = encounter_seed(setup_.seed, encounter.number)}));
-    }
-    auto compared = compare(stage, methods, hindsight);
-    if (!compared.has_value()) {
-      episode.row.fault = compared.error().message;
+    episode.row.fault = compare_all(encounter, stage, episode);
+    if (!episode.row.fault.empty()) {
       return episode;
-    }
-    episode.row.risk = std::move(compared).value();
-    for (const MethodRun& run : episode.row.risk.runs) {
-      if (!run.fault.empty()) {
-        episode.row.fault = run.fault;
-        return episode;
-      }
-    }
-    const auto& runs = episode.row.risk.runs;
-    for (std::size_t i = 0; i < num_learners; ++i) {
-      if (runs.at(i).harm > runs.back().harm + reflex::material_harm) {
-        episode.refuted.at(i) = learners.at(i)->followed();
-      }
     }
     JudgingOptions judging = setup_.judging;
     judging.seed = encounter_seed(setup_.seed, encounter.number);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -95,6 +96,10 @@ class Curriculum {
 
  private:
   explicit Curriculum(CurriculumSetup setup) : setup_(std::move(setup)) {}
+  /// All curriculum_methods, in this encounter.
+  /// @return  what went wrong; empty: nothing
+  [[nodiscard]] std::string compare_all(const SuiteEncounter& encounter,
+                                        const encounter::Stage& stage, Episode& episode);
   [[nodiscard]] memory::Store& of(Learner who) {
     return memories_.at(static_cast<std::size_t>(who));
   }

@@ -23,6 +23,23 @@ double keeping_torque(const vehicle::Vehicle& car, double speed) {
   return 0.5 * vehicle::air_density * car.drag_area * speed * speed * car.wheel_radius;
 }
 
+/// The signals that such a test measures, without a value yet.
+Log empty_log(const TestDrive& drive) {
+  Log log{.name = std::string(name_of(drive.kind, kind_names)),
+          .kind = drive.kind,
+          .motor_known = drive.motor_known};
+  for (std::size_t i = 0; i < num_signals; ++i) {
+    const auto signal = static_cast<Signal>(i);
+    const bool lateral =
+        signal == Signal::a_y || signal == Signal::yaw_rate || signal == Signal::sideslip;
+    const bool lengthways = signal >= Signal::wheel_front_left || signal == Signal::a_x;
+    if (signal == Signal::speed || (drive.kind == TestKind::brake ? lengthways : lateral)) {
+      log.measured.push_back({signal, {}});
+    }
+  }
+  return log;
+}
+
 }  // namespace
 
 Log drive_test(const vehicle::Vehicle& car, const TestDrive& drive) {
@@ -35,20 +52,7 @@ Log drive_test(const vehicle::Vehicle& car, const TestDrive& drive) {
   const auto num_steps = static_cast<int>(std::lround(drive.interval / vehicle::usual_step));
   expects(num_steps >= 1 && num_steps <= 50, "interval in [0.001, 0.05]");
 
-  Log log{.name = std::string(name_of(drive.kind, kind_names)),
-          .kind = drive.kind,
-          .motor_known = drive.motor_known};
-  const bool brake = drive.kind == TestKind::brake;
-  for (std::size_t i = 0; i < num_signals; ++i) {
-    const auto signal = static_cast<Signal>(i);
-    const bool lateral =
-        signal == Signal::a_y || signal == Signal::yaw_rate || signal == Signal::sideslip;
-    const bool wheel = signal >= Signal::wheel_front_left;
-    if (signal == Signal::speed || (brake ? wheel || signal == Signal::a_x : lateral)) {
-      log.measured.push_back({signal, {}});
-    }
-  }
-
+  Log log = empty_log(drive);
   vehicle::VehicleState state;
   state.v_B = {drive.speed, 0.0};
   state.wheel_speed.fill(drive.speed / car.wheel_radius);
@@ -63,14 +67,14 @@ Log drive_test(const vehicle::Vehicle& car, const TestDrive& drive) {
       log.event = log.time.size();
     }
     vehicle::Command command;
-    command.motor_torque = brake && begun ? 0.0 : keeping_torque(car, state.v_B.x);
-    if (begun && brake) {
+    if (!begun || drive.kind == TestKind::steer) {
+      command.motor_torque = keeping_torque(car, state.v_B.x);
+      command.steering = begun ? drive.steering : 0.0;
+    } else {
       const bool gentle = time < drive.lead_in + half_braking - 1e-9;
       const double wanted = gentle ? 0.5 * drive.deceleration : drive.deceleration;
       command.brake_torque =
           vehicle::deployed_brakes(car, state, wanted, drive.grip, interval, abs);
-    } else if (begun) {
-      command.steering = drive.steering;
     }
     log.time.push_back(time);
     log.command.push_back(command);

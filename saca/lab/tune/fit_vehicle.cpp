@@ -242,6 +242,45 @@ void warn_of_signals(const FitProblem& problem, const VectorXd& x, const std::ve
   }
 }
 
+/// What is not determined goes back to the base, the dead time to a whole millisecond.
+/// @return  the rest, which follows
+std::vector<Index> held_back(const FitProblem& problem, const std::vector<Index>& all,
+                             const std::vector<Index>& determined, VectorXd& x) {
+  std::vector<Index> free;
+  for (const Index k : all) {
+    const auto index = static_cast<std::size_t>(k);
+    const bool candidate = index < num_candidates;
+    if (candidate && !contains(determined, index)) {
+      x[k] = 0.0;
+    } else if (candidate && is_dead_time(candidates().at(index))) {
+      x[k] = problem.x_of(index,
+                          dead_time_step * std::round(problem.value(index, x[k]) / dead_time_step));
+    } else {
+      free.push_back(k);
+    }
+  }
+  return free;
+}
+
+std::vector<SignalQuality> qualities_of(const FitProblem& problem, const VectorXd& x,
+                                        const std::vector<Log>& logs) {
+  const std::vector<Spread> spreads = spreads_of(problem, x);
+  std::vector<SignalQuality> qualities;
+  qualities.reserve(spreads.size());
+  for (std::size_t k = 0; k < spreads.size(); ++k) {
+    const FitProblem::Place& place = problem.series()[k];
+    const Log& log = logs[place.log];
+    qualities.push_back({.log = log.name,
+                         .signal = log.measured[place.column].signal,
+                         .noise = problem.noise()[k],
+                         .rms = spreads[k].rms,
+                         .offset = problem.offset(x, k),
+                         .run = spreads[k].run,
+                         .num_outliers = spreads[k].num_outliers});
+  }
+  return qualities;
+}
+
 }  // namespace
 
 VehicleFit fit_vehicle(const vehicle::Vehicle& base, double grip, const std::vector<Log>& logs) {
@@ -262,40 +301,15 @@ VehicleFit fit_vehicle(const vehicle::Vehicle& base, double grip, const std::vec
   const MatrixXd covariance = problem.covariance(x);
   const std::vector<Index> determined = determined_by(problem, covariance);
 
-  // What is not determined goes back to the base, the dead time to a whole millisecond; the rest
-  // follows.
   const VectorXd centre = x;
-  std::vector<Index> free;
-  for (const Index k : all) {
-    const auto index = static_cast<std::size_t>(k);
-    const bool candidate = index < num_candidates;
-    if (candidate && !contains(determined, index)) {
-      x[k] = 0.0;
-    } else if (candidate && is_dead_time(candidates().at(index))) {
-      x[k] = problem.x_of(index,
-                          dead_time_step * std::round(problem.value(index, x[k]) / dead_time_step));
-    } else {
-      free.push_back(k);
-    }
-  }
+  const std::vector<Index> free = held_back(problem, all, determined, x);
   x = problem.minimum(x, free, fine);
 
   VehicleFit fit{.car = base};
   fit.parameters = parameters_of(problem, x, centre, covariance, determined);
   fit.car = car_of(base, fit.parameters);
   fit.condition = condition_of(covariance, determined);
-  const std::vector<Spread> spreads = spreads_of(problem, x);
-  for (std::size_t k = 0; k < spreads.size(); ++k) {
-    const FitProblem::Place& place = problem.series()[k];
-    const Log& log = logs[place.log];
-    fit.signals.push_back({.log = log.name,
-                           .signal = log.measured[place.column].signal,
-                           .noise = problem.noise()[k],
-                           .rms = spreads[k].rms,
-                           .offset = problem.offset(x, k),
-                           .run = spreads[k].run,
-                           .num_outliers = spreads[k].num_outliers});
-  }
+  fit.signals = qualities_of(problem, x, logs);
   warn_of_parameters(fit);
   warn_of_signals(problem, x, logs, fit);
   return fit;

@@ -72,6 +72,29 @@ bool TrackConfirmation::is_look(const world::Scene& scene) const noexcept {
          });
 }
 
+TrackConfirmation::Track TrackConfirmation::continued(const std::optional<Track>& known,
+                                                      const world::Actor& actor,
+                                                      const world::Scene& scene) noexcept {
+  Track track = known.value_or(Track{});
+  if (!known || track.absent > 0) {
+    track.there_since = scene.time;
+  }
+  const bool seen = !known || measured_at(scene, actor) > track.measured + rounding;
+  if (seen || scene.time >= track.looked_at + slowest_looks - rounding) {
+    add_look(track.looks, seen);
+    track.looked_at = scene.time;
+  }
+  track.kind = actor.kind;
+  track.id = actor.id;
+  track.absent = 0;
+  track.measured = seen ? measured_at(scene, actor) : track.measured;
+  track.p_W = actor.X_WA.p;
+  track.v_W = actor.v_W;
+  track.position_sd = actor.position_sd;
+  track.present = scene.time;
+  return track;
+}
+
 void TrackConfirmation::look(const world::Scene& scene) noexcept {
   const bool begins = !(scene.time >= newest_ && scene.time <= newest_ + longest_gap);
   if (begins) {
@@ -85,26 +108,10 @@ void TrackConfirmation::look(const world::Scene& scene) noexcept {
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
     const std::optional<std::size_t> known = find(actor, scene);
-    Track track = known ? tracks_[*known] : Track{};
     if (known) {
       present.set(*known);
     }
-    if (!known || track.absent > 0) {
-      track.there_since = scene.time;
-    }
-    const bool seen = !known || measured_at(scene, actor) > track.measured + rounding;
-    if (seen || scene.time >= track.looked_at + slowest_looks - rounding) {
-      add_look(track.looks, seen);
-      track.looked_at = scene.time;
-    }
-    track.kind = actor.kind;
-    track.id = actor.id;
-    track.absent = 0;
-    track.measured = seen ? measured_at(scene, actor) : track.measured;
-    track.p_W = actor.X_WA.p;
-    track.v_W = actor.v_W;
-    track.position_sd = actor.position_sd;
-    track.present = scene.time;
+    Track track = continued(known ? std::optional(tracks_[*known]) : std::nullopt, actor, scene);
     const bool has_waited = is_slow || scene.time >= track.there_since + longest_wait - rounding;
     track.confirmed = track.confirmed || begins || std::popcount(track.looks) >= looks_needed ||
                       (has_waited && actor.existence >= likely);

@@ -76,6 +76,10 @@ class TrackConfirmation {
   [[nodiscard]] std::optional<std::size_t> find(const world::Actor& actor,
                                                 const world::Scene& scene) const noexcept;
   [[nodiscard]] bool is_look(const world::Scene& scene) const noexcept;
+  /// The track with what the newest scene says of the actor; whether it is confirmed is as it was.
+  /// @param known  nullopt: the track begins
+  [[nodiscard]] static Track continued(const std::optional<Track>& known, const world::Actor& actor,
+                                       const world::Scene& scene) noexcept;
 
   StaticVector<Track, 2 * world::max_actors> tracks_;  ///< who is there, and who was lately
   ActorSet confirmed_;

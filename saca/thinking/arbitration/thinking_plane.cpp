@@ -326,12 +326,11 @@ bool ThinkingPlane::is_outdated(const Round& round, const std::vector<std::size_
   return true;
 }
 
-void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
-  double left = std::numeric_limits<double>::infinity();
+std::vector<std::string> ThinkingPlane::write_prompts(const std::vector<std::size_t>& which) {
   std::vector<std::string> scenes;
+  scenes.reserve(which.size());
   for (const std::size_t i : which) {
     Preview& preview = previews_[i];
-    left = std::min(left, time_left(round, preview.newest_scene));
     preview.prompt = prompt_of(preview);
     if (!tools_.asking.facts) {
       preview.prompt = language_model::without_facts(preview.prompt);
@@ -341,15 +340,62 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     }
     scenes.push_back(preview.prompt);
   }
-  const double asked_at = round.now();
+  return scenes;
+}
+
+void ThinkingPlane::hear(const Question& question, const language_model::Progress& news) {
+  Preview& preview = previews_[question.which[news.prompt]];
+  if (!tools_.asking.reasoning && !preview.reply.answers.empty()) {
+    return;  // the first answer stands
+  }
+  if (!news.text.empty()) {
+    output_.reasoning(preview.number, news.text);
+  }
+  if (news.answer != nullptr) {
+    const double each = (question.round.time_of(news.answer->time) - question.asked_at) /
+                        static_cast<double>(question.which.size());
+    fastest_answer_ = fastest_answer_ > 0.0 ? std::min(fastest_answer_, each) : each;
+    take_answer(question.round, preview, *news.answer);
+  }
+}
+
+void ThinkingPlane::take_replies(const Question& question,
+                                 const std::vector<language_model::Reply>& replies) {
+  for (std::size_t k = 0; k < replies.size() && k < question.which.size(); ++k) {
+    Preview& preview = previews_[question.which[k]];
+    preview.unheard = false;
+    preview.reply.prompt_tokens = replies[k].prompt_tokens;
+    if (!tools_.asking.reasoning) {
+      continue;
+    }
+    preview.reply.reasoning = replies[k].reasoning;
+    preview.reply.reply_tokens = replies[k].reply_tokens;
+    judge_reasoning(question.round, preview);
+  }
+}
+
+void ThinkingPlane::ask_again_later(const Question& question, double missed) {
+  for (const std::size_t i : question.which) {
+    previews_[i].unheard = !previews_[i].plan;
+    previews_[i].missed = missed;
+  }
+}
+
+void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
+  double left = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : which) {
+    left = std::min(left, time_left(round, previews_[i].newest_scene));
+  }
+  const std::vector<std::string> scenes = write_prompts(which);
+  const Question question{round, which, round.now()};
   tell(round, EventKind::ask,
        fmt::format("the model is asked about {} forecast{}, {:.1f} s left", scenes.size(),
                    scenes.size() == 1 ? "" : "s", left));
   std::stop_source withdrawn;
   const std::stop_callback withdraw(round.stop, [&] { withdrawn.request_stop(); });
   bool outdated = false;
-  double looked_at = asked_at;
-  const auto look_again = [&] {
+  double looked_at = question.asked_at;
+  const auto progress = [&](const language_model::Progress& news) {
     if (round.newest && !outdated && round.now() >= looked_at + looked_again) {
       outdated = is_outdated(round, which);
       looked_at = round.now();
@@ -357,59 +403,24 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
         withdrawn.request_stop();
       }
     }
-  };
-  const auto progress = [&](const language_model::Progress& news) {
-    look_again();
-    if (outdated || news.prompt >= which.size()) {
-      return;
-    }
-    Preview& preview = previews_[which[news.prompt]];
-    if (!tools_.asking.reasoning && !preview.reply.answers.empty()) {
-      return;  // the first answer stands
-    }
-    if (!news.text.empty()) {
-      output_.reasoning(preview.number, news.text);
-    }
-    if (news.answer != nullptr) {
-      const double each =
-          (round.time_of(news.answer->time) - asked_at) / static_cast<double>(which.size());
-      fastest_answer_ = fastest_answer_ > 0.0 ? std::min(fastest_answer_, each) : each;
-      take_answer(round, preview, *news.answer);
+    if (!outdated && news.prompt < which.size()) {
+      hear(question, news);
     }
   };
-  const auto replies = tools_.model->ask(scenes, round.clock_at(asked_at + left), progress,
+  const auto replies = tools_.model->ask(scenes, round.clock_at(question.asked_at + left), progress,
                                          {.stop = withdrawn.get_token()});
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }
-  if (!replies.has_value() && !outdated) {
+  if (replies.has_value()) {
+    take_replies(question, replies.value());
+  } else if (!outdated) {
     ++deadline_misses_;
-    const bool late = replies.error().code == Error::Code::too_late;
-    for (const std::size_t i : which) {
-      previews_[i].unheard = !previews_[i].plan;
-      previews_[i].missed = late ? left : 0.0;
-    }
+    ask_again_later(question, replies.error().code == Error::Code::too_late ? left : 0.0);
     tell(round, EventKind::fault, "model: " + replies.error().message);
-    return;
   }
-  for (std::size_t k = 0; replies.has_value() && k < replies.value().size() && k < which.size();
-       ++k) {
-    Preview& preview = previews_[which[k]];
-    preview.unheard = false;
-    const language_model::Reply& reply = replies.value()[k];
-    preview.reply.prompt_tokens = reply.prompt_tokens;
-    if (!tools_.asking.reasoning) {
-      continue;
-    }
-    preview.reply.reasoning = reply.reasoning;
-    preview.reply.reply_tokens = reply.reply_tokens;
-    judge_reasoning(round, preview);
-  }
-  for (const std::size_t i : which) {
-    if (outdated) {  // the next round asks about all that have no plan
-      previews_[i].unheard = !previews_[i].plan;
-      previews_[i].missed = 0.0;
-    }
+  if (outdated) {  // the next round asks about all that have no plan
+    ask_again_later(question, 0.0);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "saca/base/core/clock.h"
@@ -99,6 +100,12 @@ class ThinkingPlane {
 
  private:
   struct Round;
+  /// To the model, about several previews.
+  struct Question {
+    const Round& round;
+    const std::vector<std::size_t>& which;  ///< indices into previews_
+    double asked_at = 0.0;                  ///< [s]
+  };
 
   /// @return  whether anything was that was current
   bool forget_what_has_passed(double now);
@@ -123,6 +130,13 @@ class ThinkingPlane {
   /// ask about all of them anew; or the encounter is over.
   [[nodiscard]] bool is_outdated(const Round& round, const std::vector<std::size_t>& which) const;
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
+  /// Of these previews, as they are asked about.
+  [[nodiscard]] std::vector<std::string> write_prompts(const std::vector<std::size_t>& which);
+  void hear(const Question& question, const language_model::Progress& news);
+  void take_replies(const Question& question, const std::vector<language_model::Reply>& replies);
+  /// Those of it that have no plan.
+  /// @param missed  the time that there was and that was too short [s]; 0: that was not why
+  void ask_again_later(const Question& question, double missed);
   void take_answer(const Round& round, Preview& preview, const language_model::Answer& answer);
   void judge_reasoning(const Round& round, Preview& preview);
   /// @return  whether the policy is what the forecast is provided with now

@@ -84,6 +84,14 @@ class ObservationHistory {
   };
 
   [[nodiscard]] const Look& back(std::size_t steps) const;
+  /// How a value changes, over as much of the time as is remembered [1/s]; 0 where that is nothing.
+  /// @param steps  back, at most
+  /// @param known  for so many it has been known without a break
+  [[nodiscard]] double slope(double (*value)(const Look&), std::size_t steps,
+                             std::size_t known) const;
+  void tell_motion(Features& f) const;
+  void tell_lane(Features& f) const;
+  void tell_lead(Features& f) const;
 
   std::array<Look, capacity> looks_{};
   std::size_t num_seen_ = 0;

@@ -67,6 +67,15 @@ struct Store::State {
       experience.relearn(one);
     }
   }
+
+  /// As rewrite().
+  [[nodiscard]] std::optional<Error> rewrite_and_relearn(const Case& one) {
+    auto error = rewrite(one);
+    if (!error) {
+      relearn(one);
+    }
+    return error;
+  }
 };
 
 Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -190,59 +199,60 @@ Result<std::vector<match::CaseId>> Store::add_in_turn(std::span<const Case> case
   return ids;
 }
 
+Result<Learnt> Store::learn_now(const Case& one) {
+  if (auto error = state_->catch_up()) {
+    return *std::move(error);
+  }
+  std::optional<Case> doubted;  // the nearest that contradicts it
+  for (const match::CaseId id : state_->experience.same_encounter_as(match::features(one.scene))) {
+    auto found = find(id);
+    if (!found.has_value()) {
+      return found.error();
+    }
+    if (!found.value()) {
+      continue;  // somebody has deleted it
+    }
+    Case known = *std::move(found).value();
+    if (known.trust == Trust::quarantined) {  // since it was read
+      state_->experience.pass_over(id);
+    } else if (!may_be_the_same_car(known.made_with, one.made_with)) {
+      continue;
+    } else if (!contradict(known, one)) {
+      auto error = state_->rewrite_and_relearn(merged(known, one));
+      return error ? Result<Learnt>(*std::move(error))
+                   : Learnt{.how = Learnt::How::merged, .id = id, .other = id};
+    } else if (!doubted) {
+      doubted = std::move(known);
+    }
+  }
+  Case added = one;
+  if (doubted) {
+    added.trust = std::max(added.trust, Trust::unchecked);
+    doubted->trust = std::max(doubted->trust, Trust::unchecked);
+    if (auto error = state_->rewrite_and_relearn(*doubted)) {
+      return *std::move(error);
+    }
+  }
+  const auto id = state_->table->insert(cells_of(added), std::nullopt);
+  if (!id.has_value()) {
+    return id.error();
+  }
+  return doubted ? Learnt{Learnt::How::contradicted, id.value(), doubted->id}
+                 : Learnt{Learnt::How::added, id.value(), 0};
+}
+
 Result<Learnt> Store::learn(const Case& one) {
   check(one);
   Learnt learnt;
-  const auto rewrite = [this](const Case& known) {
-    auto error = state_->rewrite(known);
-    if (!error) {
-      state_->relearn(known);
+  auto error = state_->table->in_one_transaction([&]() -> std::optional<Error> {
+    const auto done = learn_now(one);
+    if (!done.has_value()) {
+      return done.error();
     }
-    return error;
-  };
-  const auto learn_now = [&]() -> std::optional<Error> {
-    if (auto error = state_->catch_up()) {
-      return error;
-    }
-    std::optional<Case> doubted;  // the nearest that contradicts it
-    for (const match::CaseId id :
-         state_->experience.same_encounter_as(match::features(one.scene))) {
-      auto found = find(id);
-      if (!found.has_value()) {
-        return found.error();
-      }
-      if (!found.value()) {
-        continue;  // somebody has deleted it
-      }
-      Case known = *std::move(found).value();
-      if (known.trust == Trust::quarantined) {  // since it was read
-        state_->experience.pass_over(id);
-      } else if (!may_be_the_same_car(known.made_with, one.made_with)) {
-        continue;
-      } else if (!contradict(known, one)) {
-        learnt = {.how = Learnt::How::merged, .id = id, .other = id};
-        return rewrite(merged(known, one));
-      } else if (!doubted) {
-        doubted = std::move(known);
-      }
-    }
-    Case added = one;
-    if (doubted) {
-      added.trust = std::max(added.trust, Trust::unchecked);
-      doubted->trust = std::max(doubted->trust, Trust::unchecked);
-      if (auto error = rewrite(*doubted)) {
-        return error;
-      }
-    }
-    const auto id = state_->table->insert(cells_of(added), std::nullopt);
-    if (!id.has_value()) {
-      return id.error();
-    }
-    learnt = doubted ? Learnt{Learnt::How::contradicted, id.value(), doubted->id}
-                     : Learnt{Learnt::How::added, id.value(), 0};
+    learnt = done.value();
     return std::nullopt;
-  };
-  if (auto error = state_->table->in_one_transaction(learn_now)) {
+  });
+  if (error) {
     state_->experience.clear();  // it may know of what did not happen
     return *std::move(error);
   }

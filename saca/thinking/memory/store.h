@@ -152,6 +152,8 @@ class Store {
   enum class Adding : std::uint8_t { new_ids, own_ids_where_empty, only_where_empty };
   [[nodiscard]] Result<std::vector<match::CaseId>> add_in_turn(std::span<const Case> cases,
                                                                Adding how);
+  /// In a transaction; as learn().
+  [[nodiscard]] Result<Learnt> learn_now(const Case& one);
 
   std::unique_ptr<State> state_;
 };
