@@ -9,7 +9,7 @@
 #include "apps/saca/places.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/imitator.h"
-#include "saca/lab/eval/regulation.h"
+#include "saca/lab/eval/regulation_file.h"
 
 namespace saca::app {
 

@@ -1,14 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "saca/base/core/result.h"
 #include "saca/lab/eval/comparison.h"
 #include "saca/lab/scenario/scenario.h"
 
@@ -30,6 +29,10 @@ enum class TestKind : std::uint8_t {
   pass_between,   ///< the path leads between two parked cars
   curve,          ///< in a left curve somebody stands behind its outer edge, straight ahead
 };
+/// As files have them.
+constexpr std::array<std::string_view, 9> test_kind_names{
+    "stopped_lead",  "slower_lead", "braking_lead", "crossing", "standing",
+    "walking_along", "steel_plate", "pass_between", "curve"};
 [[nodiscard]] std::string_view name(TestKind kind);
 
 /// What must hold for a test to be passed.
@@ -39,6 +42,9 @@ enum class LimitKind : std::uint8_t {
   deceleration,     ///< the ego decelerates by less than a limit
   no_intervention,  ///< the ego goes on as it did
 };
+/// As files have them.
+constexpr std::array<std::string_view, 4> limit_kind_names{"no_contact", "impact_speed",
+                                                           "deceleration", "no_intervention"};
 [[nodiscard]] std::string_view name(LimitKind kind);
 
 /// A test device.
@@ -88,6 +94,10 @@ struct RegulationRow {
   double outer_radius = 0.0;  ///< of `curve`: of the road's outer edge [m]
 };
 
+/// Time that who crosses needs from its start to where it meets a car of some width [s].
+/// @param row  with a start offset
+[[nodiscard]] double crossing_time(const RegulationRow& row, double ego_width);
+
 /// On which tests are run.
 struct TestSurface {
   std::string name;
@@ -109,12 +119,6 @@ struct Regulation {
   std::vector<RegulationRow> rows;
   std::vector<std::string> notes;  ///< what the grid leaves out or takes another way, in sentences
 };
-
-/// @param source  name for messages, usually the path
-/// @return        Error::Code::malformed, naming source, line, key, wanted and got
-[[nodiscard]] Result<Regulation> read_regulation(std::string_view text, std::string_view source);
-/// @return  as read_regulation, or Error::Code::unreadable
-[[nodiscard]] Result<Regulation> load_regulation(const std::filesystem::path& path);
 
 /// One test at one speed.
 struct RegulationCell {
