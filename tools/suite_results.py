@@ -26,7 +26,7 @@ NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_wo
 
 
 ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_reach", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_paper",
-         "saca_paper_at_once", "saca_paper_untuned", "saca_paper_unaware", "saca_paper_no_facts", "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "imitation", "random", "nothing", "first_forecast",
+         "saca_paper_at_once", "saca_paper_untuned", "saca_paper_unaware", "saca_paper_no_facts", "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "imitation", "imitation_drivers", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "least_danger", "least_joint_danger", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn",
          "beliefs_and_danger", "beliefs_and_experience", "beliefs_and_grip", "beliefs_and_followers",
          "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/lab/eval/methods.cpp has them
@@ -103,15 +103,21 @@ def expectations(figures, head, method, families):
 def suite_section(figures, name):
     head = f"suite.{name}."
     methods = methods_of(figures, head)
+    named = re.search(r" --methods ([a-z0-9_]+)", figures["meta.command"])
+    first = named[1] if named and f"{head}{named[1]}.harm_over_first" in figures else None
+
+    def above_first(method):
+        return [interval(figures, f"{head}{method}.harm_over_first")] if first else []
+
     lines = [[f"`{m}`", interval(figures, f"{head}{m}.harm"), interval(figures, f"{head}{m}.regret"),
-              interval(figures, f"{head}{m}.harm_over_aeb"), percent(figures, f"{head}{m}.contact"),
+              interval(figures, f"{head}{m}.harm_over_aeb"), *above_first(m), percent(figures, f"{head}{m}.contact"),
               percent(figures, f"{head}{m}.right"), percent(figures, f"{head}{m}.materially_worse_than_aeb"),
               percent(figures, f"{head}{m}.needless"), interval(figures, f"{head}{m}.false_trigger_loss", 3).split(" ")[0]]
              for m in methods]
     text = [f"## Suite `{name}`, {figures[head + 'n']:,} encounters\n",
             f"{figures[head + 'faults']} could not be played. Means with 95 % intervals; shares in per cent.\n",
-            table(["method", "harm", "regret", "harm above AEB's", "contact", "as good as the best", "materially worse than AEB", "needless",
-                   "False-Trigger Loss"], lines)]
+            table(["method", "harm", "regret", "harm above AEB's", *([f"harm above that of `{first}`"] if first else []), "contact", "as good as the best",
+                   "materially worse than AEB", "needless", "False-Trigger Loss"], lines)]
     families = sorted({key[len(head):].split(".")[1] for key in figures
                        if key.startswith(head) and len(key[len(head):].split(".")) == 3 and key.endswith(".regret")})
     if families:

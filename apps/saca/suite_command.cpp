@@ -72,6 +72,7 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
     if (aeb && result.all[*aeb].regret.value > 0.0) {
       out[place + "regret_over_aeb"] = one.regret.value / result.all[*aeb].regret.value;
     }
+    add_estimate(out, place + "harm_over_first", eval::harm_above(run.rows, m, 0, options.seed));
     add_decisions(out, place, one);
     out[place + "faults"] = one.faults;
     for (const auto& [family, figures] : result.families) {
