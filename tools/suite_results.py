@@ -21,7 +21,7 @@ from figures import ROOT, Figures, interval, percent, processor, table
 
 KEPT = ROOT / "docs" / "suites.json"
 PAGE = ROOT / "docs" / "suites.md"
-NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
+NUMBERS = ("harm", "regret", "harm_over_aeb", "harm_over_first", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
            "false_triggers", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
