@@ -103,7 +103,7 @@ def expectations(figures, head, method, families):
 def suite_section(figures, name):
     head = f"suite.{name}."
     methods = methods_of(figures, head)
-    named = re.search(r" --methods ([a-z0-9_]+)", figures["meta.command"])
+    named = re.search(r" --methods ([a-z0-9_]+)", figures.get("meta.command", ""))
     first = named[1] if named and f"{head}{named[1]}.harm_over_first" in figures else None
 
     def above_first(method):
@@ -260,7 +260,8 @@ def replies_section(figures):
         f"\nReplies: {share('ended')} % end by themselves, with {figures['eval.tokens.p50']} tokens (median; at most {figures['eval.tokens.max']}); in "
         f"{share('text_and_answer_agree')} % the text ends with what is then answered. {share('true_statements')} % of the statements that can be checked "
         f"({figures['eval.statements_checked']:.1f} a reply) are true, in {share('true_replies')} % of the replies all are; {share('unfounded')} % of the choices rest "
-        f"on a false one. As the reason {share('shown')} % are shown as they are, {share('shown_in_part')} % without what does not hold. In twins in which nothing "
+        f"on a false one. As the reason {share('shown')} % are shown as they are, {share('shown_in_part')} % without what does not hold"
+        + (f"; where it may try three times, {share('shown_at_last')} % in all" if "eval.shown_at_last" in figures else "") + ". In twins in which nothing "
         f"has to be done it intervenes in {interval(figures, 'eval.twins.needless', 1, 100.0)} %."
         + (f" Temperature that fits best: {figures['eval.temperature']:.2f}." if "eval.temperature" in figures else "")])
 

@@ -45,6 +45,17 @@ def test_verdicts_stand_beside_what_happened():
     assert "knowingly" not in suite_results.suite_section({key: value for key, value in figures.items() if "expected" not in key}, "x")
 
 
+def test_parts_are_told_by_what_is_lost_without_them():
+    figures = {"meta.command": "saca suite x --methods saca,saca_no_memory --count 7", "suite.x.n": 7, "suite.x.faults": 0}
+    for method, more in (("saca", 0.0), ("saca_no_memory", 0.25)):
+        figures |= {f"suite.x.{method}.harm": 0.5, f"suite.x.{method}.harm_over_first": more, f"suite.x.{method}.harm_over_first.lo": more - 0.125,
+                    f"suite.x.{method}.harm_over_first.hi": more + 0.125}
+    text = suite_results.suite_section(figures, "x")
+    assert "harm above that of `saca`" in text and "0.2500 (0.1250 to 0.3750)" in text
+    assert set(suite_results.trimmed(figures)) == set(figures)
+    assert "above that of" not in suite_results.suite_section({key: value for key, value in figures.items() if "over_first" not in key}, "x")
+
+
 def forecasts_of(models):
     figures = {f"forecast.x.{part}": 3 for part in ("num_encounters", "num_failed", "num_forecasts", "num_acting")}
     for k, model in enumerate(models):
@@ -91,11 +102,11 @@ def test_replies_are_told_beside_simple_rules():
     figures = {f"eval.{key}.{what}": value for key in ("model", "aeb") for what, value in (("best_within", 0.75), ("admissible", 1.0), ("harm", 0.5),
                                                                                           ("regret", 0.25), ("above_rule", -0.125))}
     figures |= {"eval." + key: 0.5 for key in ("ended", "text_and_answer_agree", "true_statements", "statements_checked", "true_replies", "unfounded", "shown",
-                                               "shown_in_part", "temperature")}
+                                               "shown_in_part", "shown_at_last", "temperature")}
     figures |= {"eval.num_examples": 9, "eval.num_known": 5, "eval.num_failed": 0, "eval.tokens.p50": 80, "eval.tokens.max": 99}
     text = suite_results.replies_section(figures)
     assert "| the model, after reasoning | 75.0 | 100.0 | 0.2500 | -0.1250 |" in text and "the best forecast" not in text
-    assert "As the reason 50.0 % are shown" in text and text.endswith("Temperature that fits best: 0.50.")
+    assert "As the reason 50.0 % are shown" in text and "three times, 50.0 % in all" in text and text.endswith("Temperature that fits best: 0.50.")
 
 
 def test_single_families_keep_their_regret_only():
