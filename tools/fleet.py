@@ -44,10 +44,15 @@ def vehicle_of(case, vehicles, seed):
 
 def asked(cases, header, queries, folder):
     """@return  how many queries the bank of these cases is sure of (share), and how often it is right then"""
+    if not cases:
+        return {"cases": 0, "coverage": 0.0, "right": None, "sure": 0}
     bank = pathlib.Path(folder) / "bank.jsonl"
     bank.write_text("".join(json.dumps(line) + "\n" for line in [header | {"cases": len(cases)}, *cases]), encoding="utf-8")
     command = [SACA, "memory", "calibrate", bank, *(part for query in queries for part in ("--check", query)), "--json"]
-    figures = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    run = subprocess.run(command, check=False, capture_output=True, text=True)
+    if run.returncode != 0:
+        sys.exit(f"saca memory calibrate: {run.stderr.strip()}")
+    figures = json.loads(run.stdout)
     return {"cases": len(cases), "coverage": figures[SURE + "coverage"], "right": figures.get(SURE + "in_truth"), "sure": figures.get(SURE + "in_truth.n", 0)}
 
 
