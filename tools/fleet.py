@@ -53,7 +53,8 @@ def asked(cases, header, queries, folder):
     if run.returncode != 0:
         sys.exit(f"saca memory calibrate: {run.stderr.strip()}")
     figures = json.loads(run.stdout)
-    return {"cases": len(cases), "coverage": figures[SURE + "coverage"], "right": figures.get(SURE + "in_truth"), "sure": figures.get(SURE + "in_truth.n", 0)}
+    sure = figures.get(SURE + "in_truth.n", 0)
+    return {"cases": len(cases), "coverage": figures[SURE + "coverage"], "right": figures[SURE + "in_truth"] if sure else None, "sure": sure}
 
 
 def fleet(path, queries, vehicles, seed):
