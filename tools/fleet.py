@@ -29,8 +29,11 @@ SURE = "memory.transfer.check.above_0.9."
 def read_cases(path):
     """@return  the header and the cases of a file"""
     opened = gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8")
-    with opened as lines:
-        header, *cases = [json.loads(line) for line in lines]
+    try:
+        with opened as lines:
+            header, *cases = [json.loads(line) for line in lines]
+    except (ValueError, OSError) as problem:
+        sys.exit(f"{path}: want cases as JSON Lines, got {problem}")
     if header.get("schema") != "saca.cases/1":
         sys.exit(f"{path}: want cases, schema saca.cases/1, got {header.get('schema')}")
     return header, cases

@@ -24,7 +24,10 @@ def rounded(value):
 
 def shippable(lines, shipped):
     """The lines of a file of cases: a header that says how many follow, then one case each."""
-    header, *cases = [json.loads(line) for line in lines]
+    try:
+        header, *cases = [json.loads(line) for line in lines]
+    except ValueError as problem:
+        sys.exit(f"want cases as JSON Lines, got {problem}")
     kept = [case for case in cases if not any(name in case["source"] for name in shipped)]
     header["cases"] = len(kept)
     return [json.dumps(rounded(line), separators=(",", ":")) for line in [header, *kept]]

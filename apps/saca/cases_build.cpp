@@ -153,9 +153,12 @@ std::optional<Error> write_cases(const CasesBuildOptions& options,
   std::vector<memory::Case> driven;
   for (const CrashCase& one : cases) {
     plain.push_back(one.judged.one);
-    if (one.judged.driver) {
+    if (const auto& driver = one.judged.driver) {
       driven.push_back(one.judged.one);
-      driven.back().best = *one.judged.driver;
+      driven.back().best = *driver;
+      driven.back().best_harm =
+          one.judged.one.happened.value_or(memory::PolicyHarms{})[manoeuvre::index(*driver)]
+              .value_or(one.judged.one.best_harm);
     }
   }
   if (!options.for_memory.empty()) {
@@ -174,6 +177,10 @@ int build_cases(const CasesBuildOptions& options) {
   }
   if (options.folders.empty() && options.hundred_car.empty()) {
     complain("want folders with releases of FARS, or --hundred-car; got neither");
+    return wrong_command_line;
+  }
+  if (!options.drivers.empty() && options.hundred_car.empty()) {
+    complain("--drivers: want --hundred-car, too: no other drivers were recorded");
     return wrong_command_line;
   }
   watch_for_interrupt();
@@ -260,7 +267,7 @@ void add_cases_build(CLI::App& cases, int& exit_code) {
                       "Besides, without their records, for `saca memory import`");
   command->add_option("--drivers", options->drivers,
                       "Besides, of the study's events alone, with what the driver did in the place "
-                      "of what was best, for saca-train-imitator");
+                      "of what was best: for saca-train-imitator, not for a memory");
   command->add_option("--journal", options->journal,
                       "What was found so far (default: beside the output)");
   command->add_option("--threads", options->threads, "They do not change the result")

@@ -60,21 +60,26 @@ ReplyRow asked_about(DrawnExamples drawn, language_model::LanguageModel& model, 
   }
   const auto replies =
       model.ask(scenes, clock.now() + patience_with_model, [](const language_model::Progress&) {});
-  if (!replies.has_value()) {
-    const std::string& record = drawn.examples.front().example.record;
-    row.problem = record + ": " + replies.error().message;
-    if (replies.error().code != Error::Code::malformed) {
-      failure = Error{replies.error().code,
-                      fmt::format("--llm: {} (in case {}; the same command goes on there)",
-                                  replies.error().message, record)};
+  const std::string record = drawn.examples.front().example.record;
+  const auto note = [&](const Error& problem) {
+    row.problem = record + ": " + problem.message;
+    if (problem.code != Error::Code::malformed) {
+      failure = Error{problem.code, fmt::format("--llm: {} (in case {}; the same command goes on "
+                                                "there)",
+                                                problem.message, record)};
     }
+  };
+  if (!replies.has_value()) {
+    note(replies.error());
     return row;
   }
   for (std::size_t i = 0; i < drawn.examples.size(); ++i) {
     DrawnExample& each = drawn.examples[i];
     row.items.push_back(
         eval::example_reply(std::move(each.example), replies.value()[i], each.situation));
-    eval::try_again(row.items.back(), each.situation, model, clock);
+    if (const auto problem = eval::try_again(row.items.back(), each.situation, model, clock)) {
+      note(*problem);
+    }
   }
   return row;
 }

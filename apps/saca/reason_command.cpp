@@ -287,8 +287,10 @@ void add_reason(CLI::App& line, int& exit_code) {
                    "MODEL@URL: a server with /v1/chat/completions, key in SACA_LLM_KEY")
       ->capture_default_str();
   command
-      ->add_option("--deadline-ms", options->deadline,
-                   "From the question to the last answer; in an encounter about 4 s")
+      ->add_option(
+          "--deadline-ms", options->deadline,
+          "From the question to the last answer; in an encounter about 4 s. Reasons that do not "
+          "hold are asked for again afterwards")
       ->check(CLI::Range(1, 3'600'000))
       ->capture_default_str();
   command->add_flag("--stream", options->stream, "Write the reasoning while it comes");

@@ -305,6 +305,7 @@ void look_back(const encounter::Setup& setup, encounter::Record& record, Story& 
   } else if (review.value()) {
     record.review = review.value();
     story.on_truth(record.review->truth);
+    story.on_shown(record.review->shown);
     if (record.stored) {
       record.not_stored = encounter::keep_lesson(*setup.memory, *record.stored, *record.review);
     }

@@ -168,6 +168,14 @@ void Story::on_truth(const language_model::Truth& truth) {
   say(text);
 }
 
+void Story::on_shown(const language_model::Explanation& shown) {
+  if (shown.tries > 1) {
+    const bool by_facts = shown.from == language_model::Explanation::From::facts;
+    say(fmt::format("\n{} try {}:\n{}", by_facts ? "By the figures, after" : "What holds, in",
+                    shown.tries, printable(shown.text)));
+  }
+}
+
 void Story::on_report(const std::string& file) {
   say(fmt::format("{}Report: {}\n", reviewing_ ? "\n" : "", one_line(file, longest_event)));
 }

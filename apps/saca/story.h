@@ -34,6 +34,8 @@ class Story final : public encounter::Listener {
   void on_review(std::string_view text);
   /// What of that is false.
   void on_truth(const language_model::Truth& truth);
+  /// What is shown of it in the end, where the model tried again.
+  void on_shown(const language_model::Explanation& shown);
   /// Where the report lies.
   void on_report(const std::string& file);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -182,17 +183,18 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
 
 Result<std::shared_ptr<const eval::Imitators>> imitators_of(const std::vector<std::string>& methods,
                                                             const Places& places) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 2> files{
+      {{"imitation", "compact_rwd_ev.safetensors"}, {"imitation_drivers", "drivers.safetensors"}}};
   eval::Imitators all;
-  for (const std::string& name : methods) {
-    if (eval::find_method(name)->needs == eval::Needs::imitator) {
-      auto read = eval::Imitator::read(
-          places.root / "models" / "imitator" /
-          (name == "imitation" ? "compact_rwd_ev.safetensors" : "drivers.safetensors"));
-      if (!read.has_value()) {
-        return read.error();
-      }
-      all.emplace(name, std::move(read).value());
+  for (const auto& [method, file] : files) {
+    if (!index_of(methods, method)) {
+      continue;
     }
+    auto read = eval::Imitator::read(places.root / "models" / "imitator" / file);
+    if (!read.has_value()) {
+      return read.error();
+    }
+    all.emplace(method, std::move(read).value());
   }
   return std::make_shared<const eval::Imitators>(std::move(all));
 }

@@ -126,6 +126,7 @@ class Planes {
   [[nodiscard]] const std::vector<arbitration::Preview>& previews() const {
     return plane_.previews();
   }
+  /// Processor times once finished.
   [[nodiscard]] PlanesTiming timing() const;
 
  private:

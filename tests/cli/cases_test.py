@@ -177,6 +177,7 @@ def test_what_cannot_be_read_or_written_is_told(fars, built, tmp_path):
     assert "want one file accident.csv, got 0" in one_error(saca("cases", "build", tmp_path, cwd=tmp_path), BAD_INPUT)
     assert "in two" in one_error(saca("cases", "build", fars, fars, cwd=tmp_path), BAD_INPUT)
     assert "got neither" in one_error(saca("cases", "build", cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert "--drivers: want --hundred-car" in one_error(saca("cases", "build", tmp_path, "--drivers", "drivers.jsonl", cwd=tmp_path), WRONG_COMMAND_LINE)
     assert saca("cases", "build", fars, "--draws", "1", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     (tmp_path / "file").write_text("x")
     assert "file" in one_error(saca("cases", "build", fars, "--output", "file/cases.jsonl", cwd=tmp_path), CANNOT_WRITE)

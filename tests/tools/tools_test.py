@@ -45,8 +45,7 @@ def test_cases_are_shipped_rounded_and_without_shipped_scenarios(tmp_path):
     assert refused.returncode == 1 and "none: want a file of cases" in refused.stderr
 
 
-def test_what_a_fleet_knows_grows_with_its_vehicles(tmp_path):
-    """Every encounter belongs to one vehicle with its twin, and all of them together know all cases."""
+def test_every_case_of_a_fleet_belongs_to_one_vehicle_and_twins_to_the_same(tmp_path):
     queries = tmp_path / "queries.jsonl"
     subprocess.run([os.environ.get("SACA_PROGRAM", ROOT / "build" / "release" / "saca"), "memory", "build", "crossing", "--count", "8", "--draws", "2", "--split", "calibration", "-o", queries],
                    check=True, capture_output=True)
@@ -60,3 +59,11 @@ def test_what_a_fleet_knows_grows_with_its_vehicles(tmp_path):
         assert sum(group["cases"] for group in row["groups"]) == everything  # dealt, none twice
     assert rows[2]["groups"][0]["cases"] == everything
     assert tool("fleet.py", tmp_path / "none", queries).returncode == 1
+    broken = tmp_path / "broken.jsonl"
+    broken.write_text("no JSON\n", encoding="utf-8")
+    refused = tool("fleet.py", broken, queries)
+    assert refused.returncode == 1 and "broken.jsonl: want cases as JSON Lines" in refused.stderr and "Traceback" not in refused.stderr
+    sys.path.insert(0, str(ROOT / "tools"))
+    import fleet
+    vehicles = [fleet.vehicle_of({"source": f"crossing_1_{k}"}, 4, 1) for k in range(40)]
+    assert vehicles == [fleet.vehicle_of({"source": f"crossing_1_{k}_twin"}, 4, 1) for k in range(40)] and set(vehicles) == {0, 1, 2, 3}

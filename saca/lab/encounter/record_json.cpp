@@ -5,6 +5,7 @@
 #include "saca/base/core/units.h"
 #include "saca/base/formats/short_numbers.h"
 #include "saca/lab/encounter/encounter.h"
+#include "saca/lab/encounter/outcome_json.h"
 #include "saca/lab/encounter/provenance.h"
 #include "saca/lab/encounter/state_json.h"
 #include "saca/lab/encounter/verdict_json.h"
@@ -72,35 +73,6 @@ json intentions_json(const IntentionsSeen& seen) {
           {"times_s", seen.times},
           {"now_permille", now},
           {"soon_permille", soon}};
-}
-
-json contact_json(const collision::Contact& contact, std::span<const world::Actor> actors) {
-  return {{"time_s", contact.time},
-          {"with", contact.actor ? actor_name(actors[*contact.actor]) : "edge"},
-          {"ego_face", name(contact.ego_face)},
-          {"other_face", contact.actor ? json(name(contact.other_face)) : json(nullptr)},
-          {"relative_speed_mps", contact.relative_speed},
-          {"x_m", contact.p_W.x},
-          {"y_m", contact.p_W.y},
-          {"normal_deg", to_degrees(std::atan2(contact.n_W.y, contact.n_W.x))},
-          {"v_rel_x_mps", contact.v_rel_W.x},
-          {"v_rel_y_mps", contact.v_rel_W.y},
-          {"ego_delta_v_mps", contact.ego_delta_v},
-          {"other_delta_v_mps", contact.other_delta_v}};
-}
-
-/// The first contact, or null.
-json first_contact_json(const collision::Outcome& outcome, std::span<const world::Actor> actors) {
-  return outcome.contact ? contact_json(*outcome.contact, actors) : json(nullptr);
-}
-
-/// Whom or what it was clear of by how much, or null.
-json nearest_json(const collision::Outcome& outcome, std::span<const world::Actor> actors) {
-  if (!outcome.nearest) {
-    return nullptr;
-  }
-  return {{"to", rollout::nearest_name(*outcome.nearest, actors)},
-          {"time_s", outcome.nearest->time}};
 }
 
 std::span<const world::Actor> actors_of(const world::Scene& scene) {
@@ -262,15 +234,6 @@ json hindsight_json(const Record& record) {
     all.push_back(entry);
   }
   return all;
-}
-
-json outcome_json(const collision::Outcome& outcome, std::span<const world::Actor> actors) {
-  return {{"contact", first_contact_json(outcome, actors)},
-          {"collision_loss", outcome.collision_loss},
-          {"harm", outcome.harm},
-          {"clearance_m", outcome.clearance},
-          {"nearest", nearest_json(outcome, actors)},
-          {"text", rollout::describe(outcome, actors)}};
 }
 
 /// The paper's False-Trigger Loss: what was done where doing nothing would have met nobody.

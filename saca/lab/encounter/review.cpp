@@ -56,9 +56,13 @@ Result<std::optional<language_model::Review>> review(
     return language_model::explanation({.prompt = review.prompt, .text = std::string(text)},
                                        aftermath);
   };
-  review.shown =
-      language_model::told_again(*setup.model, *setup.clock, review.prompt, shown_by(written),
-                                 shown_by, {.stop = stop, .max_tokens = review_tokens});
+  review.shown = shown_by(written);
+  const auto again =
+      language_model::told_again(*setup.model, *setup.clock, review.prompt, review.shown, shown_by,
+                                 {.stop = stop, .max_tokens = review_tokens});
+  if (again.has_value()) {
+    review.shown = again.value();
+  }
   return std::optional(std::move(review));
 }
 

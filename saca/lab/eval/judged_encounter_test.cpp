@@ -44,6 +44,24 @@ TEST_F(Judging, TellsTheBestOverDrawsAndWhatIsAdmissible) {
   EXPECT_GT(judged.happened[index(PolicyId::aeb)]->harm.value, 0.01);
 }
 
+// Recorded at 15 m/s towards a car that stands 60 m ahead; 1.3 s before it, braking with 4 m/s2.
+TEST_F(Judging, SaysWhatARecordedDriverDid) {
+  scenario::Scenario scenario = standing_car(15.0, 60.0);
+  EXPECT_EQ(of(scenario).value()->driver, std::nullopt) << "nobody was recorded";
+  constexpr double begun = 2.7;  // [s]
+  scenario::Recording ego;
+  for (int k = 0; k <= 80; ++k) {
+    const double time = 0.1 * k;
+    const double braked = std::clamp(time - begun, 0.0, 15.0 / 4.0);
+    ego.push_back(
+        {.time = time,
+         .X_WA = {{15.0 * std::min(time, begun) + 15.0 * braked - 2.0 * braked * braked, 0.0}, 0.0},
+         .speed = 15.0 - 4.0 * braked});
+  }
+  scenario.ego = ego;
+  EXPECT_EQ(of(scenario).value()->driver, PolicyId::aeb);
+}
+
 // By definition: expected harm at most that limit.
 TEST_F(Judging, AdmissibleIsWhatIsExpectedToHarmAsLittleAsTheBest) {
   const JudgedEncounter judged = of(only_left_helps()).value().value();

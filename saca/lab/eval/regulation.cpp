@@ -6,20 +6,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <span>
 #include <utility>
 
-#include "saca/base/config/config.h"
 #include "saca/base/core/contract.h"
-#include "saca/base/core/file.h"
 #include "saca/base/core/names.h"
 #include "saca/base/core/units.h"
 
 namespace saca::eval {
 namespace {
 
-using config::Table;
 using scenario::Behaviour;
 using world::ActorKind;
 

@@ -95,7 +95,8 @@ struct RegulationRow {
 };
 
 /// Time that who crosses needs from its start to where it meets a car of some width [s].
-/// @param row  with a start offset
+/// @param row        with a start offset
+/// @param ego_width  [m]
 [[nodiscard]] double crossing_time(const RegulationRow& row, double ego_width);
 
 /// On which tests are run.

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "saca/base/config/config.h"
-#include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
 

@@ -255,20 +255,26 @@ ExampleReply example_reply(ReplyExample example, const language_model::Reply& re
     result.statements = truth.num_checked;
     result.false_statements = static_cast<int>(truth.wrong.size());
     result.unfounded = truth.is_choice_unfounded();
-    result.shown = shown_by(result.reasoning, result, situation).from;
+    result.shown = shown_by(language_model::finished_part(reply), result, situation).from;
   }
   result.shown_at_last = result.shown;
   return result;
 }
 
-void try_again(ExampleReply& reply, const preview::Situation& situation,
-               language_model::LanguageModel& model, const Clock& clock,
-               const language_model::AskOptions& options) {
-  const language_model::Explanation told = language_model::told_again(
+std::optional<Error> try_again(ExampleReply& reply, const preview::Situation& situation,
+                               language_model::LanguageModel& model, const Clock& clock) {
+  if (!reply.last) {
+    return std::nullopt;  // there is no choice to give reasons for
+  }
+  const auto told = language_model::told_again(
       model, clock, reply.example.prompt, {.text = {}, .from = reply.shown},
-      [&](std::string_view written) { return shown_by(written, reply, situation); }, options);
-  reply.shown_at_last = told.from;
-  reply.tries = told.tries;
+      [&](std::string_view written) { return shown_by(written, reply, situation); });
+  if (!told.has_value()) {
+    return told.error();
+  }
+  reply.shown_at_last = told.value().from;
+  reply.tries = told.value().tries;
+  return std::nullopt;
 }
 
 json to_json(const ExampleReply& reply) {

@@ -44,10 +44,13 @@ struct ExampleReply {
                                          const preview::Situation& situation);
 
 /// Asks the model again where its words would not be shown: sets `shown_at_last` and `tries`.
+/// Without a last answer there is nothing to be shown.
 /// @param situation  that the example's prompt is about
-void try_again(ExampleReply& reply, const preview::Situation& situation,
-               language_model::LanguageModel& model, const Clock& clock,
-               const language_model::AskOptions& options = {});
+/// @return           the model's error
+[[nodiscard]] std::optional<Error> try_again(ExampleReply& reply,
+                                             const preview::Situation& situation,
+                                             language_model::LanguageModel& model,
+                                             const Clock& clock);
 
 [[nodiscard]] nlohmann::json to_json(const ExampleReply& reply);
 /// Strict.

@@ -8,6 +8,8 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/scripted_model.h"
 
 namespace saca::eval::reply_score_test {
 namespace {
@@ -181,6 +183,26 @@ TEST(ExampleReplyTest, BadLinesAreNamed) {
   EXPECT_THAT(problem("extra", 1), HasSubstr("extra"));
   good["last"] = nullptr;
   EXPECT_TRUE(example_reply_from_json(good).has_value());
+}
+
+TEST(ReplyScoreTest, WhatDoesNotHoldIsTriedAgain) {
+  ManualClock clock;
+  language_model::ScriptedModel model(
+      language_model::ScriptedReply{
+          .lines = {{.text = "1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n",
+                     .answer = language_model::Answer::Kind::ended}}},
+      clock);
+  const preview::Situation situation = language_model::example_situation();
+  ExampleReply wrong = reply(PolicyId::aeb);
+  wrong.example.prompt = language_model::scene_part(situation, std::nullopt, 0.0);
+  ExampleReply silent = wrong;
+  silent.last.reset();
+  EXPECT_EQ(try_again(silent, situation, model, clock), std::nullopt);
+  EXPECT_EQ(model.num_asked(), 0);
+  EXPECT_EQ(try_again(wrong, situation, model, clock), std::nullopt);
+  EXPECT_EQ(wrong.shown_at_last, language_model::Explanation::From::model);
+  EXPECT_EQ(wrong.tries, 2);
+  EXPECT_EQ(wrong.shown, language_model::Explanation::From::facts);
 }
 
 }  // namespace

@@ -31,6 +31,11 @@ std::string told(const reflex::Verdict& verdict, const manoeuvre::Plan& plan) {
   return text;
 }
 
+/// What the model was asked, or would be.
+std::string asked_prompt(const Preview& preview) {
+  return preview.prompt.empty() ? prompt_of(preview) : preview.prompt;
+}
+
 /// Nothing is explained where there is none, or it cannot be driven.
 std::optional<manoeuvre::PolicyId> explained_policy(const Preview& preview) {
   std::optional<manoeuvre::PolicyId> chosen;
@@ -46,9 +51,8 @@ std::optional<manoeuvre::PolicyId> explained_policy(const Preview& preview) {
 /// @param written  whole sentences of a reply
 language_model::Explanation explanation_by(std::string_view written, const Preview& preview,
                                            manoeuvre::PolicyId chosen) {
-  return language_model::explanation(written,
-                                     preview.prompt.empty() ? prompt_of(preview) : preview.prompt,
-                                     preview.situation, told_case(preview), chosen);
+  return language_model::explanation(written, asked_prompt(preview), preview.situation,
+                                     told_case(preview), chosen);
 }
 
 }  // namespace
@@ -90,15 +94,16 @@ std::optional<language_model::Explanation> explanation(const Preview& preview) {
 std::optional<language_model::Explanation> retold(const Preview& preview,
                                                   language_model::LanguageModel& model,
                                                   const Clock& clock, const std::stop_token& stop) {
-  auto first = explanation(preview);
+  const auto first = explanation(preview);
   const auto chosen = explained_policy(preview);
   if (!first || !chosen || preview.reply.answers.empty()) {
     return first;
   }
-  return language_model::told_again(
-      model, clock, preview.prompt, *std::move(first),
+  const auto again = language_model::told_again(
+      model, clock, asked_prompt(preview), *first,
       [&](std::string_view written) { return explanation_by(written, preview, *chosen); },
       {.stop = stop});
+  return again.has_value() ? std::optional(again.value()) : first;
 }
 
 std::string trigger_text(const world::Actor& actor, double time,

@@ -92,7 +92,8 @@ struct Preview {
 [[nodiscard]] std::optional<language_model::Explanation> explanation(const Preview& preview);
 
 /// The same, for which a model that was asked about the preview is asked again while the reasons
-/// are not its own words (language_model::told_again): off the deadline's path.
+/// are not its own words (language_model::told_again): off the deadline's path. As explanation()
+/// where it fails.
 [[nodiscard]] std::optional<language_model::Explanation> retold(
     const Preview& preview, language_model::LanguageModel& model, const Clock& clock,
     const std::stop_token& stop = {});

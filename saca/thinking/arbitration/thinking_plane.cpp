@@ -382,11 +382,11 @@ void ThinkingPlane::ask_again_later(const Question& question, double missed) {
 }
 
 void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
+  const std::vector<std::string> scenes = write_prompts(which);
   double left = std::numeric_limits<double>::infinity();
   for (const std::size_t i : which) {
     left = std::min(left, time_left(round, previews_[i].newest_scene));
   }
-  const std::vector<std::string> scenes = write_prompts(which);
   const Question question{round, which, round.now()};
   tell(round, EventKind::ask,
        fmt::format("the model is asked about {} forecast{}, {:.1f} s left", scenes.size(),

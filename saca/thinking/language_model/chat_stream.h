@@ -20,7 +20,7 @@ struct ChatQuestion {
 };
 
 /// The request's body: streamed, with its token counts. Without chance (temperature 0), or with
-/// `sampling_temperature` and the seed.
+/// `sampling_temperature` and the seed; in the newer form without a temperature.
 [[nodiscard]] std::string json_text(const ChatQuestion& question);
 
 /// What a server says in the body of a refusal: its message where the body is JSON that has one,

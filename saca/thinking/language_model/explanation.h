@@ -20,7 +20,7 @@ struct Explanation {
   };
   std::string text;
   From from = From::facts;
-  int tries = 1;  ///< replies that the model was asked for until there was this (retelling.h)
+  int tries = 1;  ///< after how many replies of a model there was this; 1 without one, too
 };
 [[nodiscard]] std::string_view name(Explanation::From from);
 [[nodiscard]] std::optional<Explanation::From> explanation_from(std::string_view name);

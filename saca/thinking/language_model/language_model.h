@@ -52,8 +52,8 @@ struct AskOptions {
   /// had come, and the model can be asked again.
   std::stop_token stop;
   std::optional<int> max_tokens;  ///< of text per scene, > 0; nullopt: as the model is set up
-  /// >= 0. 0: the likeliest token at every place (greedy). Any other: tokens are drawn by their
-  /// probabilities, for the same seed the same.
+  /// >= 0. 0: the likeliest token at every place (greedy). Any other: tokens are drawn, likelier
+  /// ones more often (`sampling_temperature`), for the same seed the same.
   int sampling_seed = 0;
 };
 

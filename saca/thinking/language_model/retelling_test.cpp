@@ -11,10 +11,11 @@ namespace {
 
 using From = Explanation::From;
 
-/// The model says what `replies_` are, one after the other; what begins with "true" holds.
+/// The model says what `replies_` are, one after the other; what begins with "true" holds, an empty
+/// one holds no answer.
 class RetellingTest : public testing::Test {
  protected:
-  Explanation told(From first = From::facts) {
+  Result<Explanation> told_or_error(From first = From::facts) {
     return told_again(model_, clock_, "the prompt", {.text = "at first", .from = first},
                       [](std::string_view written) {
                         return written.starts_with("true")
@@ -23,8 +24,12 @@ class RetellingTest : public testing::Test {
                       },
                       {.stop = stop_.get_token()});
   }
+  Explanation told(From first = From::facts) { return told_or_error(first).value(); }
   ScriptedReply next() {
     const auto at = static_cast<std::size_t>(model_.num_asked() - 1);
+    if (at < replies_.size() && replies_[at].empty()) {
+      return {.error = Error{Error::Code::malformed, "no answer in it"}};
+    }
     return at < replies_.size()
                ? ScriptedReply{.lines = {{.text = replies_[at], .answer = Answer::Kind::ended}}}
                : ScriptedReply{.error = Error{Error::Code::unreadable, "it is gone"}};
@@ -80,10 +85,15 @@ TEST_F(RetellingTest, EachTryHasASeedOfItsOwn) {
   EXPECT_THAT(seeds.seen, testing::ElementsAre(1, 2));
 }
 
-TEST_F(RetellingTest, AModelThatIsGoneLeavesWhatWasShown) {
+TEST_F(RetellingTest, NonsenseIsATryLikeOthers) {
+  replies_ = {"", "true"};
   const Explanation telling = told();
-  EXPECT_EQ(telling.text, "at first");
-  EXPECT_EQ(telling.tries, 1);
+  EXPECT_EQ(telling.text, "true");
+  EXPECT_EQ(telling.tries, most_tries);
+}
+
+TEST_F(RetellingTest, AModelThatIsGoneIsTold) {
+  EXPECT_EQ(told_or_error().error().message, "it is gone");
 }
 
 TEST_F(RetellingTest, WithdrawnLeavesWhatWasShown) {
