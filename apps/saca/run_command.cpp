@@ -260,7 +260,7 @@ Result<std::unique_ptr<Means>> open_means(const RunOptions& options, Clock& cloc
   if (!model.has_value()) {
     return model.error();
   }
-  auto forced = forced_plan(options);
+  const auto forced = forced_plan(options);
   if (!forced.has_value()) {
     return forced.error();
   }

@@ -94,7 +94,7 @@ std::optional<language_model::Explanation> explanation(const Preview& preview) {
 std::optional<language_model::Explanation> retold(const Preview& preview,
                                                   language_model::LanguageModel& model,
                                                   const Clock& clock, const std::stop_token& stop) {
-  const auto first = explanation(preview);
+  auto first = explanation(preview);
   const auto chosen = explained_policy(preview);
   if (!first || !chosen || preview.reply.answers.empty()) {
     return first;
