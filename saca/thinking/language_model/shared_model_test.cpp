@@ -48,7 +48,8 @@ const Error dead{Error::Code::unreadable, "the model died"};
 
 TEST(SharedModel, DoesNotPutTheSameQuestionTwice) {
   ManualClock clock;
-  Queue inner({reply(Answer::Kind::ended), reply(Answer::Kind::forced), reply(Answer::Kind::ended)});
+  Queue inner(
+      {reply(Answer::Kind::ended), reply(Answer::Kind::forced), reply(Answer::Kind::ended)});
   SharedModel model(inner, clock);
   const auto first = model.ask({"a"}, 9s, unheard).value();
   clock.advance(5s);
