@@ -92,7 +92,11 @@ def test_a_server_can_be_asked(server, tmp_path):
     run = saca("reason", "intersection_t1", "--llm", url, cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     assert "Choice: 6 T-D-R" in run.stdout and "Truth: 1 of 1 statements" in run.stdout
-    assert len(server.asked) == run.stdout.count("trigger at") >= 1
+    forecasts = run.stdout.count("trigger at")
+    assert forecasts >= 1 and [asked["temperature"] for asked in server.asked[:forecasts]] == [0] * forecasts
+    # What holds no reasons for its choice is tried again, by chance.
+    again = server.asked[forecasts:]
+    assert [(asked["seed"], asked["temperature"]) for asked in again] == [(1, 0.7), (2, 0.7)] * forecasts
     for asked in server.asked:
         assert asked["model"] == "some-model" and "## Manoeuvres:" in asked["messages"][-1]["content"]
 

@@ -176,7 +176,7 @@ TEST(ExampleReplyTest, BadLinesAreNamed) {
     bad[key] = std::move(value);
     return example_reply_from_json(bad).error().message;
   };
-  EXPECT_THAT(problem("schema", "saca.reply/1"), HasSubstr("saca.example_reply/1"));
+  EXPECT_THAT(problem("schema", "saca.reply/1"), HasSubstr("saca.example_reply/2"));
   EXPECT_THAT(problem("first", {0.5}), HasSubstr("first"));
   EXPECT_THAT(problem("tokens", -1), HasSubstr("tokens"));
   EXPECT_THAT(problem("example", nlohmann::json::object()), HasSubstr("schema"));
