@@ -11,7 +11,6 @@ of these the mean and the least and largest are told. A lone vehicle's memory is
 """
 
 import argparse
-import gzip
 import hashlib
 import json
 import os
@@ -20,23 +19,12 @@ import subprocess
 import sys
 import tempfile
 
+from shippable_cases import read_cases
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SACA = os.environ.get("SACA_PROGRAM", ROOT / "build" / "release" / "saca")
 MOST_GROUPS = 4
 SURE = "memory.transfer.check.above_0.9."
-
-
-def read_cases(path):
-    """@return  the header and the cases of a file"""
-    opened = gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8")
-    try:
-        with opened as lines:
-            header, *cases = [json.loads(line) for line in lines]
-    except (ValueError, OSError) as problem:
-        sys.exit(f"{path}: want cases as JSON Lines, got {problem}")
-    if header.get("schema") != "saca.cases/1":
-        sys.exit(f"{path}: want cases, schema saca.cases/1, got {header.get('schema')}")
-    return header, cases
 
 
 def vehicle_of(case, vehicles, seed):

@@ -22,12 +22,22 @@ def rounded(value):
     return [rounded(each) for each in value] if isinstance(value, list) else value
 
 
-def shippable(lines, shipped):
-    """The lines of a file of cases: a header that says how many follow, then one case each."""
+def read_cases(path):
+    """@return  the header of a file of cases, plain or compressed, which says how many follow, and the cases"""
     try:
-        header, *cases = [json.loads(line) for line in lines]
+        with gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8") as lines:
+            header, *cases = [json.loads(line) for line in lines]
+    except OSError as problem:
+        sys.exit(f"{path}: want a file of cases, got {problem.strerror or problem}")
     except ValueError as problem:
-        sys.exit(f"want cases as JSON Lines, got {problem}")
+        sys.exit(f"{path}: want cases as JSON Lines, got {problem}")
+    if header.get("schema") != "saca.cases/1":
+        sys.exit(f"{path}: want cases, schema saca.cases/1, got {header.get('schema')}")
+    return header, cases
+
+
+def shippable(header, cases, shipped):
+    """The lines of a file of cases."""
     kept = [case for case in cases if not any(name in case["source"] for name in shipped)]
     header["cases"] = len(kept)
     return [json.dumps(rounded(line), separators=(",", ":")) for line in [header, *kept]]
@@ -37,11 +47,8 @@ def main():
     if len(sys.argv) != 3:
         sys.exit("usage: tools/shippable_cases.py CASES.jsonl OUT.jsonl[.gz]")
     source, target = (pathlib.Path(argument) for argument in sys.argv[1:])
-    try:
-        lines = source.read_text(encoding="utf-8").splitlines()
-    except OSError as problem:
-        sys.exit(f"{source}: want a file of cases, got {problem.strerror}")
-    text = "".join(line + "\n" for line in shippable(lines, {path.stem for path in (ROOT / "scenarios").glob("100car_*.toml")}))
+    shipped = {path.stem for path in (ROOT / "scenarios").glob("100car_*.toml")}
+    text = "".join(line + "\n" for line in shippable(*read_cases(source), shipped))
     data = text.encode("utf-8")
     target.write_bytes(gzip.compress(data, compresslevel=9, mtime=0) if target.suffix == ".gz" else data)
 

@@ -140,10 +140,8 @@ void print(const ReplyScore& score, const CasesEvalOptions& options, const std::
       "tokens (median; at most {}); {:.1f} % conclude as they answer.\n{:.1f} statements of each "
       "can be checked, {:.1f} % of them are true; in {:.1f} % of the replies all are; {:.1f} % of "
       "the choices\nrest on something false. As the reason {:.1f} % are shown as they are, {:.1f} "
-      "% "
-      "without what does not hold,\n{:.1f} % where the model may try {} times; in place of the "
-      "others the figures are "
-      "told.\n",
+      "% without what does not hold,\n{:.1f} % where the model may try {} times; in place of the "
+      "others the figures are told.\n",
       with_interval(score.needless, 1, 100.0), 100.0 * score.ended, median_of(score.tokens),
       score.tokens.back(), 100.0 * score.agrees, score.statements, 100.0 * score.true_statements,
       100.0 * score.true_replies, 100.0 * score.unfounded, 100.0 * score.shown,

@@ -313,14 +313,8 @@ Result<ExampleReply> example_reply_from_json(const json& document) {
   reply.unfounded = reader.flag("unfounded");
   for (const auto& [key, part] : {std::pair{"shown", &ExampleReply::shown},
                                   std::pair{"shown_at_last", &ExampleReply::shown_at_last}}) {
-    const std::string shown = reader.text(key);
-    if (const auto from = language_model::explanation_from(shown)) {
-      reply.*part = *from;
-    } else if (!problem) {
-      problem =
-          Error{Error::Code::malformed,
-                std::string(key) + ": want model, model_in_part or facts, got \"" + shown + '"'};
-    }
+    reply.*part =
+        reader.word(key, language_model::explanation_from, "model, model_in_part or facts");
   }
   reader.refuse_others();
   if (problem) {

@@ -55,9 +55,8 @@ Preview badly_explained() {
 TEST(Event, ReasonsThatDoNotHoldAreToldAgainByTheModel) {
   ManualClock clock;
   language_model::ScriptedModel model(
-      language_model::ScriptedReply{
-          .lines = {{.text = "1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n",
-                     .answer = language_model::Answer::Kind::ended}}},
+      language_model::ScriptedReply{.lines = {{.text = language_model::example_reasons,
+                                               .answer = language_model::Answer::Kind::ended}}},
       clock);
   Preview preview = badly_explained();
   ASSERT_TRUE(explanation(preview).has_value());

@@ -4,6 +4,10 @@
 
 namespace saca::language_model {
 
+/// Reasons for AEB in the situation below: both statements hold.
+constexpr const char* example_reasons =
+    "1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n";
+
 /// The paper's intersection at the trigger (Fig. 8) as a hand-filled forecast, for tests and
 /// benchmarks: poses from the figure; the facts are plausible, not computed.
 inline preview::Situation example_situation() {

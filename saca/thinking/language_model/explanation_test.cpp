@@ -35,10 +35,9 @@ class ExplanationTest : public testing::Test {
 
 TEST_F(ExplanationTest, WhatIsTrueIsShownAsItWasWritten) {
   const Explanation told =
-      of("Scenario Analysis\n1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n"
-         "Response to user:");
+      of("Scenario Analysis\n" + std::string(example_reasons) + "Response to user:");
   EXPECT_EQ(told.from, From::model);
-  EXPECT_EQ(told.text, "1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n");
+  EXPECT_EQ(told.text, example_reasons);
 }
 
 TEST_F(ExplanationTest, WhatIsFalseOrSaysNothingIsLeftOut) {
