@@ -16,11 +16,12 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/atlas_check.h"
 #include "saca/lab/families/splits.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/onboard/atlas/atlas_file.h"
 #include "saca/onboard/reflex/vehicle_package.h"
 
@@ -57,7 +58,7 @@ int build(const AtlasOptions& options) {
     app::print("{} is there and right for this car\n", output.string());
     return success;
   }
-  if (const auto problem = why_outputs_unwritable({output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({output})) {
     return refused(*problem);
   }
   const auto atlas = make_atlas(inputs.value(), output, options.threads);
@@ -99,7 +100,7 @@ int package(const AtlasOptions& options, const std::string& package_file) {
       package_file.empty() ? fs::path(name + ".vehicle") : fs::path(package_file);
   const std::string bytes =
       reflex::vehicle_package_bytes(name, inputs.value().car, inputs.value().harm, atlas.value());
-  if (const auto problem = write_output(output, bytes)) {
+  if (const auto problem = long_work::write_output(output, bytes)) {
     return refused(*problem);
   }
   app::print("{}: {}, {:.1f} MB\n", output.string(), name,
@@ -273,16 +274,16 @@ int check(const AtlasOptions& options) {
     families.push_back(std::move(family).value());
     seeds.push_back(options.seed.value_or(seed.value()));
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   std::vector<std::vector<eval::AtlasRow>> rows(static_cast<std::size_t>(options.scenes));
   in_parallel(rows.size(), options.threads, [&](std::size_t i) {
-    if (!interrupted()) {
+    if (!long_work::interrupted()) {
       const std::size_t which = i % names.size();
       rows[i] = eval::atlas_rows(families[which], seeds[which], i / names.size(), atlas.value(),
                                  inputs.value().car, inputs.value().harm);
     }
   });
-  if (interrupted()) {
+  if (long_work::interrupted()) {
     complain("interrupted; nothing was counted");
     return was_interrupted;
   }

@@ -6,10 +6,13 @@
 #include <system_error>
 
 #include "apps/saca/places.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/prepare/atlas_build.h"
 #include "saca/onboard/atlas/atlas_file.h"
 
@@ -29,12 +32,13 @@ Result<std::optional<NewAtlas>> made(const Inputs& inputs, const fs::path& file,
                                      const fs::path& journal) {
   SteadyClock clock;
   const auto grid = atlas::default_atlas_grid();
-  ProgressLine line("atlas", static_cast<int>(num_nodes(grid)), clock);
+  long_work::ProgressLine line("atlas", static_cast<int>(num_nodes(grid)), clock,
+                               progress_display());
   const auto nodes = prepare::build_atlas(
       inputs.car, grid, threads, journal, [&](const prepare::AtlasProgress& progress) {
         line.show(static_cast<int>(progress.done), static_cast<int>(progress.remembered),
                   " points");
-        return !interrupted();
+        return !long_work::interrupted();
       });
   if (!nodes.has_value()) {
     return nodes.error();
@@ -42,7 +46,7 @@ Result<std::optional<NewAtlas>> made(const Inputs& inputs, const fs::path& file,
   if (nodes.value() == nullptr) {
     return std::optional<NewAtlas>();
   }
-  auto problem = make_folder_of(file);
+  auto problem = long_work::make_folder_of(file);
   if (!problem) {
     problem = write_file(file, atlas::atlas_bytes(inputs.car, grid, *nodes.value()));
   }
@@ -53,11 +57,11 @@ Result<std::optional<NewAtlas>> made(const Inputs& inputs, const fs::path& file,
 
 Result<std::optional<atlas::Atlas>> make_atlas(const Inputs& inputs, const fs::path& file,
                                                int threads) {
-  if (auto problem = make_folder_of(file)) {
+  if (auto problem = long_work::make_folder_of(file)) {
     return *problem;
   }
   const fs::path journal = file.string() + ".journal";
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto one = made(inputs, file, threads, journal);
   if (!one.has_value()) {
     return one.error();

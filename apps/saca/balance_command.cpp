@@ -10,7 +10,6 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "saca/base/core/proportion.h"
 

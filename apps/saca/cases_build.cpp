@@ -11,9 +11,12 @@
 #include "apps/saca/cases_commands.h"
 #include "apps/saca/cases_making.h"
 #include "apps/saca/json_output.h"
-#include "apps/saca/resumable.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/version.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/resumable_work.h"
 #include "saca/thinking/memory/case_json.h"
 
 namespace saca::app {
@@ -132,12 +135,13 @@ Result<std::optional<std::vector<CaseRow>>> gather_cases(const CasesBuildOptions
     return planes.error();
   }
   const CaseMaking making(options.making, sources, *planes.value());
-  return rows_of<CaseRow>(
+  return long_work::rows_of<CaseRow>(
       {.journal = options.journal.empty() ? options.output + ".journal" : options.journal,
        .title = fmt::format("saca {} {} ({:016x})", version_text(), command, making.digest()),
        .progress = "cases of crashes",
        .unit = "records",
        .count = making.size(),
+       .display = progress_display(),
        .threads = options.threads,
        .row = [&](std::size_t number) { return making.row(number); },
        .line_of = case_row_line,
@@ -146,7 +150,7 @@ Result<std::optional<std::vector<CaseRow>>> gather_cases(const CasesBuildOptions
 
 std::optional<Error> write_cases(const CasesBuildOptions& options,
                                  const std::vector<CrashCase>& cases) {
-  if (auto problem = write_output(options.output, eval::crash_cases_text(cases))) {
+  if (auto problem = long_work::write_output(options.output, eval::crash_cases_text(cases))) {
     return problem;
   }
   std::vector<memory::Case> plain;
@@ -162,17 +166,18 @@ std::optional<Error> write_cases(const CasesBuildOptions& options,
     }
   }
   if (!options.for_memory.empty()) {
-    if (auto problem = write_output(options.for_memory, memory::cases_text(plain))) {
+    if (auto problem = long_work::write_output(options.for_memory, memory::cases_text(plain))) {
       return problem;
     }
   }
-  return options.drivers.empty() ? std::nullopt
-                                 : write_output(options.drivers, memory::cases_text(driven));
+  return options.drivers.empty()
+             ? std::nullopt
+             : long_work::write_output(options.drivers, memory::cases_text(driven));
 }
 
 int build_cases(const CasesBuildOptions& options) {
-  if (const auto problem =
-          why_outputs_unwritable({options.output, options.for_memory, options.drivers})) {
+  if (const auto problem = long_work::why_outputs_unwritable(
+          {options.output, options.for_memory, options.drivers})) {
     return refused(*problem);
   }
   if (options.folders.empty() && options.hundred_car.empty()) {
@@ -183,7 +188,7 @@ int build_cases(const CasesBuildOptions& options) {
     complain("--drivers: want --hundred-car, too: no other drivers were recorded");
     return wrong_command_line;
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
     return refused(inputs.error());

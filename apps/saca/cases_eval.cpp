@@ -13,14 +13,17 @@
 #include "apps/saca/cases_commands.h"
 #include "apps/saca/cases_examples.h"
 #include "apps/saca/cases_making.h"
-#include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
-#include "apps/saca/resumable.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/version.h"
 #include "saca/base/formats/json_lines.h"
 #include "saca/lab/eval/reply_score.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/items_row.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/resumable_work.h"
 #include "saca/thinking/language_model/retelling.h"
 
 namespace saca::app {
@@ -44,7 +47,7 @@ struct CasesEvalOptions {
 };
 
 /// What was replied about one case and its twin.
-using ReplyRow = ItemsRow<ExampleReply>;
+using ReplyRow = long_work::ItemsRow<ExampleReply>;
 
 /// @param failure  why the model cannot be asked any more, if that is so: the row is then worth
 ///                 nothing. That an answer is malformed is something that the model said
@@ -159,7 +162,7 @@ std::optional<Error> write_replies(const std::string& path,
   for (const ExampleReply& one : replies) {
     lines += eval::to_json(one).dump() + '\n';
   }
-  return write_output(path, lines);
+  return long_work::write_output(path, lines);
 }
 
 /// By something that has nothing to do with what they are, so that the first few stand for all:
@@ -196,7 +199,7 @@ Result<std::optional<std::vector<ReplyRow>>> replies_to(const ExampleSource& sou
                                                         const Clock& clock,
                                                         const CasesEvalOptions& options) {
   std::optional<Error> failure;
-  return rows_of<ReplyRow>(
+  return long_work::rows_of<ReplyRow>(
       {.journal = options.output + ".journal",
        .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",
                             version_text(), options.set, options.examples.car,
@@ -204,26 +207,27 @@ Result<std::optional<std::vector<ReplyRow>>> replies_to(const ExampleSource& sou
        .progress = "replies",
        .unit = "cases",
        .count = source.cases.size(),
+       .display = progress_display(),
        .threads = 1,  // the model uses all cores
        .row =
            [&](std::size_t i) {
              return asked_about(drawn_examples(source.cases[i], source, options.examples), model,
                                 clock, failure);
            },
-       .line_of = items_line<ExampleReply>,
+       .line_of = long_work::items_line<ExampleReply>,
        .row_from =
            [](const std::string& line) {
-             return items_row<ExampleReply>(line, eval::example_reply_from_json);
+             return long_work::items_row<ExampleReply>(line, eval::example_reply_from_json);
            },
        .spoilt_by_interrupt = true,  // it reaches the model's process, too
        .failure = [&failure] { return failure; }});
 }
 
 int eval_cases(const CasesEvalOptions& options) {
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   auto opened = open_examples(options.examples);
   if (!opened.has_value()) {
     return refused(opened.error());
@@ -250,8 +254,9 @@ int eval_cases(const CasesEvalOptions& options) {
     complain("interrupted: the same command goes on from here");
     return was_interrupted;
   }
-  int failed = 0;
-  std::vector<ExampleReply> replies = all_items(*std::move(rows).value(), failed);
+  auto [replies, problems] = long_work::all_items(*std::move(rows).value());
+  complain_of(problems);
+  const auto failed = static_cast<int>(problems.size());
   std::stable_sort(replies.begin(), replies.end(),
                    [&](const ExampleReply& a, const ExampleReply& b) {
                      return places.at(a.example.record) < places.at(b.example.record);

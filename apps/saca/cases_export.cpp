@@ -11,13 +11,16 @@
 
 #include "apps/saca/cases_commands.h"
 #include "apps/saca/cases_examples.h"
-#include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
-#include "apps/saca/resumable.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/version.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/formats/json_lines.h"
 #include "saca/lab/eval/reply_example.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/items_row.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/resumable_work.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/token_bound.h"
 
@@ -40,7 +43,7 @@ struct CasesExportOptions {
 };
 
 /// What one case and its twin gave.
-using ExampleRow = ItemsRow<ReplyExample>;
+using ExampleRow = long_work::ItemsRow<ReplyExample>;
 
 ExampleRow row_of(const CrashCase& one, const ExampleSource& source,
                   const ExampleOptions& options) {
@@ -155,22 +158,23 @@ std::optional<Error> write_sets(const std::vector<ReplyExample>& examples,
     if (options.format == "local") {
       lines.insert(0, formats::first_json_line(examples_schema, "examples", count));
     }
-    if (auto problem = write_output(folder / (std::string(name(set)) + ".jsonl"), lines)) {
+    if (auto problem =
+            long_work::write_output(folder / (std::string(name(set)) + ".jsonl"), lines)) {
       return problem;
     }
   }
-  if (auto problem = write_output(folder / "system.txt", system)) {
+  if (auto problem = long_work::write_output(folder / "system.txt", system)) {
     return problem;
   }
-  return write_output(folder / "README.md", card);
+  return long_work::write_output(folder / "README.md", card);
 }
 
 int export_cases(const CasesExportOptions& options) {
   const std::filesystem::path folder = options.output;
-  if (const auto problem = why_outputs_unwritable({folder / "train.jsonl"})) {
+  if (const auto problem = long_work::why_outputs_unwritable({folder / "train.jsonl"})) {
     return refused(*problem);
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto opened = open_examples(options.examples);
   if (!opened.has_value()) {
     return refused(opened.error());
@@ -178,19 +182,20 @@ int export_cases(const CasesExportOptions& options) {
   const ExampleSource& with = opened.value();
   const std::string command = fmt::format("cases export {} --format {} {}", options.examples.file,
                                           options.format, example_text(options.examples));
-  auto rows = rows_of<ExampleRow>(
+  auto rows = long_work::rows_of<ExampleRow>(
       {.journal = (folder / "journal").string(),
        .title = fmt::format("saca {} cases export --car {} --seed {} ({:016x})", version_text(),
                             options.examples.car, options.examples.seed, with.digest),
        .progress = "examples of replies",
        .unit = "cases",
        .count = with.cases.size(),
+       .display = progress_display(),
        .threads = options.threads,
        .row = [&](std::size_t i) { return row_of(with.cases[i], with, options.examples); },
-       .line_of = items_line<ReplyExample>,
+       .line_of = long_work::items_line<ReplyExample>,
        .row_from =
            [](const std::string& line) {
-             return items_row<ReplyExample>(line, eval::reply_example_from_json);
+             return long_work::items_row<ReplyExample>(line, eval::reply_example_from_json);
            }});
   if (!rows.has_value()) {
     return refused(rows.error());
@@ -199,8 +204,9 @@ int export_cases(const CasesExportOptions& options) {
     complain("interrupted: the same command goes on from here");
     return was_interrupted;
   }
-  int failed = 0;
-  const std::vector<ReplyExample> examples = all_items(*std::move(rows).value(), failed);
+  const auto [examples, problems] = long_work::all_items(*std::move(rows).value());
+  complain_of(problems);
+  const auto failed = static_cast<int>(problems.size());
   const SetTallies tallies = tallied(examples);
   const std::string card = data_card(with, tallies, command);
   if (const auto problem = write_sets(examples, with, options, card)) {

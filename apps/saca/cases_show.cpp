@@ -15,6 +15,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/base/formats/compressed_text.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/scenario/chance.h"
 
 namespace saca::app {
@@ -50,7 +51,7 @@ std::vector<CrashCase> drawn_cases(std::vector<CrashCase> cases, const CasesShow
 }
 
 int show_cases(const CasesShowOptions& options) {
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const auto text = formats::read_compressed(options.file, many_bytes);
@@ -95,7 +96,7 @@ int show_cases(const CasesShowOptions& options) {
                                 options.count, options.seed,
                                 options.family.empty() ? "" : " --family " + options.family,
                                 options.record.empty() ? "" : " --record " + options.record)};
-  if (const auto problem = write_output(options.output, report::suite_page(page))) {
+  if (const auto problem = long_work::write_output(options.output, report::suite_page(page))) {
     return refused(*problem);
   }
   if (options.as_json) {

@@ -3,8 +3,8 @@
 #include <utility>
 #include <variant>
 
-#include "apps/saca/progress.h"
 #include "saca/lab/crash_records/record_family.h"
+#include "saca/lab/long_work/interrupt.h"
 
 namespace saca::app {
 namespace {
@@ -60,7 +60,7 @@ std::vector<CrashProspect> in_turn(std::vector<CrashProspect> all, std::size_t m
 
 std::optional<Error> take_events(CaseSources& sources, const std::string& folder) {
   auto outcomes = importers::import_hundred_cars(
-      folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
+      folder, {}, [](std::size_t, std::size_t) { return !long_work::interrupted(); });
   if (!outcomes.has_value()) {
     return outcomes.error();
   }

@@ -14,6 +14,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -244,7 +245,7 @@ int complete(const CLI::App& line, const CompletionOptions& options) {
     app::print("{}", text);
     return success;
   }
-  const auto problem = write_output(options.output, text);
+  const auto problem = long_work::write_output(options.output, text);
   return problem ? refused(*problem) : success;
 }
 

@@ -10,12 +10,12 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/proportion.h"
 #include "saca/lab/eval/cue_forecast.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -103,7 +103,7 @@ void print(const char* suite, const std::vector<eval::CueForecast>& forecasts) {
 }
 
 int run(const CuesCommand& options) {
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const auto places = find_places();
@@ -148,7 +148,8 @@ int run(const CuesCommand& options) {
     }
   }
   if (!options.output.empty()) {
-    if (auto problem = write_output(options.output, counted_law_text(law.value(), counts))) {
+    if (auto problem =
+            long_work::write_output(options.output, counted_law_text(law.value(), counts))) {
       return refused(*problem);
     }
   }

@@ -17,12 +17,14 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/learned_danger/check.h"
 #include "saca/lab/learned_danger/margins.h"
 #include "saca/lab/learned_danger/network.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/progress.h"
 
 namespace saca::app {
 namespace {
@@ -160,7 +162,7 @@ void tell(const std::vector<CheckedCase>& situations,
 
 int check_danger(const DangerCheckOptions& options) {
   constexpr int situations_at_once = 200;
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto read = read_danger_weights(options.weights);
   if (!read.has_value()) {
     return refused(read.error());
@@ -173,7 +175,7 @@ int check_danger(const DangerCheckOptions& options) {
   SteadyClock clock;
   std::vector<CheckedCase> all;
   {
-    ProgressLine line("danger check", options.situations, clock);
+    long_work::ProgressLine line("danger check", options.situations, clock, progress_display());
     while (std::ssize(all) < options.situations) {
       const int done = static_cast<int>(all.size());
       const auto more = checked_situations<CheckedCase>(
@@ -183,7 +185,7 @@ int check_danger(const DangerCheckOptions& options) {
           });
       all.insert(all.end(), more.begin(), more.end());
       line.show(static_cast<int>(all.size()), 0, " situations");
-      if (interrupted()) {
+      if (long_work::interrupted()) {
         complain("interrupted; nothing was kept: the same command begins anew");
         return was_interrupted;
       }

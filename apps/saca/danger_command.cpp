@@ -22,13 +22,16 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/journal.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/learned_danger/transition_file.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
@@ -122,11 +125,12 @@ class Making {
   /// @return  the reason why it stopped before the end; nullopt: all are there
   std::optional<Error> run(SteadyClock& clock) {
     const auto thousands = [](std::int64_t n) { return static_cast<int>(n / 1'000); };
-    ProgressLine line("danger dataset", std::max(1, thousands(options_.transitions)), clock);
+    long_work::ProgressLine line("danger dataset", std::max(1, thousands(options_.transitions)),
+                                 clock, progress_display());
     const int remembered = thousands(all().transitions);
     for (std::size_t first = 0; all_until(first).transitions < options_.transitions;
          first += static_cast<std::size_t>(options_.threads)) {
-      if (interrupted()) {
+      if (long_work::interrupted()) {
         return Error{Error::Code::too_late, "interrupted; the same command goes on"};
       }
       if (auto problem = make_some(first)) {
@@ -224,7 +228,7 @@ void tell(const DatasetOptions& options, const PartLine& all, double seconds) {
 }
 
 int make_dataset(const DatasetOptions& options) {
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
     return refused(inputs.error());
@@ -244,7 +248,7 @@ int make_dataset(const DatasetOptions& options) {
   }
   const fs::path folder(options.folder);
   const fs::path journal_file = folder / "journal.txt";
-  if (const auto problem = make_folder_of(journal_file)) {
+  if (const auto problem = long_work::make_folder_of(journal_file)) {
     return refused(*problem);
   }
   auto journal = Journal::open(

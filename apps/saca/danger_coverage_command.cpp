@@ -13,11 +13,13 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/learned_danger/coverage.h"
 #include "saca/lab/learned_danger/transition_file.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/danger/car_limits.h"
 
@@ -41,9 +43,10 @@ struct CoverageOptions {
 std::optional<Error> read_rest(CoverageSurvey& survey, const std::string& car,
                                const std::vector<std::filesystem::path>& files) {
   SteadyClock clock;
-  ProgressLine line("danger coverage", static_cast<int>(files.size()), clock);
+  long_work::ProgressLine line("danger coverage", static_cast<int>(files.size()), clock,
+                               progress_display());
   for (std::size_t i = 1; i < files.size() && !survey.is_full(); ++i) {
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return Error{Error::Code::too_late, "interrupted"};
     }
     const auto part = learned_danger::read_part_of(files[i], car);
@@ -84,7 +87,7 @@ void tell(const CoverageOptions& options, const std::string& car,
 }
 
 int tell_coverage(const CoverageOptions& options) {
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto files = learned_danger::part_files(options.folder);
   if (!files.has_value()) {
     return refused(files.error());

@@ -17,13 +17,15 @@
 
 #include "apps/saca/danger_check.h"
 #include "apps/saca/places.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/learned_danger/learned.h"
 #include "saca/lab/learned_danger/margins.h"
 #include "saca/lab/learned_danger/network.h"
 #include "saca/lab/levelset/solve.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/sim/traffic.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/danger/car_limits.h"
@@ -104,7 +106,7 @@ Result<Solution> solved_now(const danger::DangerCase& wanted) {
   const levelset::Problem problem = levelset::avoidance_problem(wanted.asked);
   SteadyClock clock;
   constexpr int permille = 1'000;
-  ProgressLine line("danger of " + wanted.name, permille, clock);
+  long_work::ProgressLine line("danger of " + wanted.name, permille, clock, progress_display());
   return levelset::solve(
       problem, levelset::danger_scheme(usual_threads()), std::nullopt, {.step = [&](double tau) {
         line.show(static_cast<int>(permille * tau / problem.times.back()), 0, " per mille");
@@ -134,7 +136,7 @@ Result<ReadyTable> ready_table(const Inputs& inputs, const danger::DangerCase& w
   if (auto kept = kept_table(file, wanted)) {
     return ReadyTable{.table = *std::move(kept), .file = file, .was_there = true};
   }
-  auto not_kept = make_folder_of(file);
+  auto not_kept = long_work::make_folder_of(file);
   const FolderHold hold(file.parent_path());
   if (auto kept = kept_table(file, wanted)) {  // while this program waited
     return ReadyTable{.table = *std::move(kept), .file = file, .was_there = true};

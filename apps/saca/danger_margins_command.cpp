@@ -16,12 +16,15 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/formats/tensors.h"
 #include "saca/lab/learned_danger/margins.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 
 namespace saca::app {
 namespace {
@@ -96,8 +99,8 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
   constexpr int at_once_for_margins = 2'000;
   SteadyClock clock;
   const int remembered = count.situations;
-  ProgressLine line("danger margins", options.situations, clock);
-  while (count.situations < options.situations && !interrupted()) {
+  long_work::ProgressLine line("danger margins", options.situations, clock, progress_display());
+  while (count.situations < options.situations && !long_work::interrupted()) {
     std::array<bool, learned_danger::num_bins> wanted{};
     std::transform(count.told.begin(), count.told.end(), wanted.begin(),
                    [](const learned_danger::ToldSafe& told) { return told.may_have_margin(); });
@@ -123,7 +126,7 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
 }
 
 int fit_margins(const MarginOptions& options) {
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   auto read = read_danger_weights(options.weights);
   if (!read.has_value()) {
     return refused(read.error());
@@ -131,7 +134,7 @@ int fit_margins(const MarginOptions& options) {
   DangerWeights weights = std::move(read).value();
   const std::string output = options.output.empty() ? options.weights : options.output;
   const std::string state = output + ".margins.json";
-  if (const auto problem = why_outputs_unwritable({output, state})) {
+  if (const auto problem = long_work::why_outputs_unwritable({output, state})) {
     return refused(*problem);
   }
   const std::string what =
@@ -144,7 +147,7 @@ int fit_margins(const MarginOptions& options) {
   if (const auto problem = count_for_margins(options, weights, state, what, count)) {
     return refused(*problem);
   }
-  if (interrupted()) {
+  if (long_work::interrupted()) {
     complain("interrupted; the same command goes on from here");
     return was_interrupted;
   }

@@ -13,6 +13,7 @@
 #include "saca/base/core/units.h"
 #include "saca/lab/learned_danger/net_inputs.h"
 #include "saca/lab/learned_danger/point_mass.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/beside_exact.h"
 #include "saca/lab/report/value_map.h"
 
@@ -42,7 +43,7 @@ int show_danger(const DangerShowOptions& options) {
   if (!exact.has_value()) {
     return refused(exact.error());
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const learned_danger::PointMass& problem = exact.value().problem;
@@ -61,7 +62,7 @@ int show_danger(const DangerShowOptions& options) {
   if (!picture.has_value()) {
     return refused(picture.error());
   }
-  if (const auto unwritable = write_output(options.output, picture.value())) {
+  if (const auto unwritable = long_work::write_output(options.output, picture.value())) {
     return refused(*unwritable);
   }
   app::print("{}\n", fs::absolute(options.output).string());

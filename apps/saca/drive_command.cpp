@@ -13,6 +13,7 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/prepare/car_file.h"
 #include "saca/lab/report/drive_json.h"
 #include "saca/lab/report/record_page.h"
@@ -112,7 +113,7 @@ std::optional<Error> write_report(const std::string& file, const std::string& re
   if (!page.has_value()) {
     return page.error();
   }
-  return write_output(file, page.value());
+  return long_work::write_output(file, page.value());
 }
 
 int drive(const DriveOptions& options) {
@@ -138,7 +139,7 @@ int drive(const DriveOptions& options) {
                              .plan = plan_of(options)};
   record.scene.ego.v_B = {options.speed, 0.0};
   record.scene.grip = options.grip;
-  if (const auto problem = why_outputs_unwritable({options.report})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.report})) {
     return refused(*problem);
   }
   if (const auto refused = manoeuvre::refusal(record.car, record.plan, record.scene)) {

@@ -14,6 +14,7 @@
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/lab/eval/suite_source.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/rollout/describe.h"
 
@@ -70,7 +71,7 @@ json json_of(const scenario::Scenario& scenario, const fs::path& file) {
 
 std::optional<Error> write_picture(const FamilyCommand& options,
                                    const report::ContactSheet& sheet) {
-  return write_output(options.svg, report::contact_sheet(sheet));
+  return long_work::write_output(options.svg, report::contact_sheet(sheet));
 }
 
 int run(const FamilyCommand& options) {
@@ -82,7 +83,7 @@ int run(const FamilyCommand& options) {
   const auto splits = read_splits(inputs.value().places);
   const fs::path some_file =
       options.write.empty() ? fs::path() : fs::path(options.write) / "x.toml";
-  if (const auto problem = why_outputs_unwritable({options.svg, some_file})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.svg, some_file})) {
     return refused(*problem);
   }
   if (!read.has_value() || !splits.has_value()) {
@@ -125,7 +126,7 @@ int run(const FamilyCommand& options) {
     fs::path file;
     if (!options.write.empty()) {
       file = fs::path(options.write) / (scenario.name + ".toml");
-      auto problem = write_output(file, scenario::write_scenario(scenario));
+      auto problem = long_work::write_output(file, scenario::write_scenario(scenario));
       if (problem) {
         return refused(*problem);
       }

@@ -14,7 +14,6 @@
 #include "apps/saca/forecast_commands.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
 #include "saca/base/core/file.h"
@@ -22,6 +21,8 @@
 #include "saca/lab/eval/forecast_score.h"
 #include "saca/lab/eval/suite_figures.h"
 #include "saca/lab/eval/traffic_drives.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -211,7 +212,7 @@ Result<AllHeard> heard_in_suite(const SuiteCommandOptions& options) {
   }
   std::vector<Heard> all(static_cast<std::size_t>(encounters.value().count));
   in_parallel(all.size(), options.threads, [&](std::size_t i) {
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return;
     }
     const auto found = played_encounter(encounters.value(), options, i);
@@ -325,7 +326,7 @@ Result<AllHeard> heard_in_traffic(const SuiteCommandOptions& options) {
   }
   const auto found = eval::traffic_drives({options.data.begin(), options.data.end()},
                                           static_cast<std::size_t>(options.count), options.seed,
-                                          [] { return !interrupted(); });
+                                          [] { return !long_work::interrupted(); });
   if (!found.has_value()) {
     return found.error();
   }
@@ -336,7 +337,7 @@ Result<AllHeard> heard_in_traffic(const SuiteCommandOptions& options) {
   }
   std::vector<Heard> all(drives.size());
   in_parallel(all.size(), options.threads, [&](std::size_t i) {
-    if (!interrupted()) {
+    if (!long_work::interrupted()) {
       all[i] =
           heard_in_drive(drives[i], i, inputs.value(), models.value().at(drives[i].site), options);
     }
@@ -346,12 +347,12 @@ Result<AllHeard> heard_in_traffic(const SuiteCommandOptions& options) {
 
 int run(const ForecastCommand& options) {
   const SuiteCommandOptions& from = options.from;
-  if (const auto problem = why_outputs_unwritable({from.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({from.output})) {
     return refused(*problem);
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto found = from.name == traffic_name ? heard_in_traffic(from) : heard_in_suite(from);
-  if (interrupted()) {
+  if (long_work::interrupted()) {
     complain("interrupted; nothing was kept: the same command begins anew");
     return was_interrupted;
   }
@@ -412,7 +413,7 @@ int run(const ForecastCommand& options) {
   }
   const std::string text = json_text(out) + "\n";
   if (!from.output.empty()) {
-    if (const auto problem = write_output(from.output, text)) {
+    if (const auto problem = long_work::write_output(from.output, text)) {
       return refused(*problem);
     }
   }

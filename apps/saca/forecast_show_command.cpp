@@ -9,6 +9,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/forecast_fan.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/scene_svg.h"
 
 namespace saca::app {
@@ -53,7 +54,7 @@ int show(ShowCommand options) {
   if (!encounters.has_value()) {
     return refused(encounters.error());
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   if (options.encounter >= static_cast<std::uint64_t>(encounters.value().count)) {
@@ -73,7 +74,7 @@ int show(ShowCommand options) {
   }
   constexpr report::SvgSize size{760.0, 250.0};
   const std::string picture = report::scene_svg(fan_view(fan.value(), options.who, name), size);
-  if (const auto problem = write_output(options.output, picture)) {
+  if (const auto problem = long_work::write_output(options.output, picture)) {
     return refused(*problem);
   }
   app::print("{}\n", options.output);

@@ -8,6 +8,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/report/harm_chart.h"
 
@@ -79,7 +80,7 @@ int harm(const HarmOptions& options) {
   if (options.svg.empty()) {
     return success;
   }
-  if (const auto error = write_output(options.svg, report::harm_svg(model.value()))) {
+  if (const auto error = long_work::write_output(options.svg, report::harm_svg(model.value()))) {
     complain(error->message);
     return cannot_write;
   }

@@ -14,7 +14,7 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/file.h"
@@ -22,6 +22,9 @@
 #include "saca/lab/importers/hundred_car.h"
 #include "saca/lab/importers/hundred_car_release.h"
 #include "saca/lab/importers/traffic_recording.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 
 namespace saca::app {
 namespace {
@@ -47,7 +50,7 @@ int import_hundred_car(const ImportOptions& options) {
     app::print("{}", text);
     return success;
   }
-  if (const auto problem = write_output(options.output, text)) {
+  if (const auto problem = long_work::write_output(options.output, text)) {
     complain(problem->message);
     return cannot_write;
   }
@@ -60,14 +63,14 @@ int import_hundred_car(const ImportOptions& options) {
 
 /// Reads and rebuilds all events, with progress on the error stream.
 Result<std::vector<importers::HundredCarOutcome>> all_hundred_cars(const ImportOptions& options) {
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   SteadyClock clock;
   constexpr int percent = 100;
-  ProgressLine line("import 100car", percent, clock);
+  long_work::ProgressLine line("import 100car", percent, clock, progress_display());
   return importers::import_hundred_cars(
       options.path, options.request, [&](std::size_t done, std::size_t all) {
         line.show(static_cast<int>(percent * done / all), 0, " percent");
-        return !interrupted();
+        return !long_work::interrupted();
       });
 }
 
@@ -77,7 +80,7 @@ std::optional<Error> write_scenarios(const std::vector<importers::HundredCarOutc
   for (const importers::HundredCarOutcome& outcome : outcomes) {
     if (const importers::HundredCarImport* made = outcome.rebuilt()) {
       const fs::path file = folder / (made->scenario.name + ".toml");
-      if (auto problem = write_output(file, scenario::write_scenario(made->scenario))) {
+      if (auto problem = long_work::write_output(file, scenario::write_scenario(made->scenario))) {
         return problem;
       }
     }
@@ -131,12 +134,12 @@ void tell_all(const std::vector<importers::HundredCarOutcome>& outcomes, std::si
 int import_all_hundred_cars(const ImportOptions& options) {
   const fs::path some_file =
       options.output.empty() ? fs::path() : fs::path(options.output) / "x.toml";
-  if (const auto problem = why_outputs_unwritable({some_file})) {
+  if (const auto problem = long_work::why_outputs_unwritable({some_file})) {
     return refused(*problem);
   }
   const auto outcomes = all_hundred_cars(options);
   if (!outcomes.has_value()) {
-    return interrupted() ? static_cast<int>(was_interrupted) : refused(outcomes.error());
+    return long_work::interrupted() ? static_cast<int>(was_interrupted) : refused(outcomes.error());
   }
   if (!options.output.empty()) {
     if (const auto problem = write_scenarios(outcomes.value(), options.output)) {
@@ -223,7 +226,7 @@ int import_traffic(const TrafficOptions& options) {
     complain(again.error().message);
     return bad_input;
   }
-  if (const auto problem = write_output(options.output, text)) {
+  if (const auto problem = long_work::write_output(options.output, text)) {
     complain(problem->message);
     return cannot_write;
   }

@@ -15,6 +15,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/recordings/set_file.h"
 #include "saca/lab/training/examples.h"
 #include "saca/lab/training/sequence_file.h"
@@ -96,7 +97,7 @@ Result<SequenceSet> gathered(const ExamplesOptions& options) {
 }
 
 int make_examples(const ExamplesOptions& options) {
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const auto all = gathered(options);
@@ -107,7 +108,7 @@ int make_examples(const ExamplesOptions& options) {
     complain(fmt::format("{}: {}", options.sets.front(), *rule));
     return bad_input;
   }
-  if (const auto problem = make_folder_of(options.output)) {
+  if (const auto problem = long_work::make_folder_of(options.output)) {
     return refused(*problem);
   }
   if (const auto problem = training::write_sequences(options.output, all.value())) {

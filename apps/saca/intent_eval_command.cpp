@@ -14,6 +14,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/intention_chart.h"
 #include "saca/lab/training/calibration.h"
 #include "saca/lab/training/displacement.h"
@@ -253,7 +254,7 @@ int evaluate(EvalOptions options) {
   if (!set.has_value()) {
     return refused(set.error());
   }
-  if (const auto problem = why_outputs_unwritable({options.svg})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
   const auto models = training::read_models(options.models);
@@ -269,7 +270,8 @@ int evaluate(EvalOptions options) {
     return refused(*problem);
   }
   if (!options.svg.empty()) {
-    if (const auto problem = write_output(options.svg, comparisons.front().confusion_svg())) {
+    if (const auto problem =
+            long_work::write_output(options.svg, comparisons.front().confusion_svg())) {
       return refused(*problem);
     }
   }

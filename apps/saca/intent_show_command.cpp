@@ -17,6 +17,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/intention_chart.h"
 #include "saca/lab/report/intention_page.h"
 #include "saca/lab/training/predict.h"
@@ -97,7 +98,7 @@ int show(const ShowOptions& options) {
   if (!set.has_value()) {
     return refused(set.error());
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const std::vector<std::size_t> chosen = drawn(set.value(), options);
@@ -131,7 +132,7 @@ int show(const ShowOptions& options) {
   const bool as_svg = fs::path(options.output).extension() == ".svg";
   const std::string text =
       as_svg ? report::intention_sample_svg(page.samples.front()) : report::intention_page(page);
-  if (const auto problem = write_output(options.output, text)) {
+  if (const auto problem = long_work::write_output(options.output, text)) {
     return refused(*problem);
   }
   app::print("{}: {} samples\n", options.output, as_svg ? 1 : page.samples.size());

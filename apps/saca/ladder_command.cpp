@@ -12,6 +12,7 @@
 #include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -196,7 +197,7 @@ int run(LadderCommand options) {
   if (suite.output.empty()) {
     suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);
   }
-  if (const auto problem = why_outputs_unwritable({suite.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({suite.output})) {
     return refused(*problem);
   }
   suite.no_twins = true;
@@ -216,10 +217,10 @@ int run(LadderCommand options) {
   }
   const json figures = json_of(*ran.value(), climbed, name);
   const std::string text = json_text(figures) + "\n";
-  auto problem = write_output(suite.output, text);
+  auto problem = long_work::write_output(suite.output, text);
   if (!problem) {
-    problem = write_output(fs::path(suite.output).replace_extension(".html"),
-                           report::suite_page(page_of(*ran.value(), climbed, name)));
+    problem = long_work::write_output(fs::path(suite.output).replace_extension(".html"),
+                                      report::suite_page(page_of(*ran.value(), climbed, name)));
   }
   if (problem) {
     return refused(*problem);

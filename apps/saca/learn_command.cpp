@@ -16,8 +16,7 @@
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
-#include "apps/saca/resumable.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/shipped_cases.h"
 #include "apps/saca/suite_thinking.h"
 #include "apps/saca/version.h"
@@ -26,6 +25,9 @@
 #include "saca/base/core/parallel.h"
 #include "saca/base/formats/json_text.h"
 #include "saca/lab/eval/curriculum.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/resumable_work.h"
 #include "saca/thinking/memory/case_json.h"
 
 namespace saca::app {
@@ -160,7 +162,7 @@ Result<std::vector<memory::Case>> first_cases(const LearnOptions& options, const
 std::optional<Error> enrol(School& school, const LearnOptions& options) {
   for (int k = 0; k < options.seeds; ++k) {
     const fs::path folder = fs::path(options.folder) / fmt::format("seed-{}", k + 1);
-    if (auto problem = make_folder_of(folder / "bank")) {
+    if (auto problem = long_work::make_folder_of(folder / "bank")) {
       return problem;
     }
     eval::CurriculumSetup setup{.saca = school.thinking->lend(school.planes->setup).setup,
@@ -220,12 +222,13 @@ Result<std::unique_ptr<School>> open_school(const LearnOptions& options) {
 /// @return  nullopt: interrupted
 Result<std::optional<std::vector<Episodes>>> taught_by(School& school, const fs::path& journal,
                                                        const std::string& title) {
-  return rows_of<Episodes>(
+  return long_work::rows_of<Episodes>(
       {.journal = journal.string(),
        .title = title,
        .progress = "learn",
        .unit = "encounters of each seed",
        .count = school.count,
+       .display = progress_display(),
        .threads = 1,  // one after the other: seeds are worked on at the same time
        .row = [&](std::size_t number) { return school.teach(number); },
        .line_of = [](const Episodes& episodes) { return line_of(episodes); },
@@ -269,16 +272,16 @@ int run(LearnOptions options) {
         "runs/learn-{}-{}", fs::path(options.from.name).filename().string(), options.from.split);
   }
   const fs::path journal = fs::path(options.folder) / "episodes.journal";
-  if (const auto problem = why_outputs_unwritable({journal, options.svg})) {
+  if (const auto problem = long_work::why_outputs_unwritable({journal, options.svg})) {
     return refused(*problem);
   }
-  if (auto problem = make_folder_of(journal)) {
+  if (auto problem = long_work::make_folder_of(journal)) {
     return refused(*problem);
   }
   if (auto problem = why_in_the_way(options)) {
     return refused(*problem);
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto opened = open_school(options);
   if (!opened.has_value()) {
     return refused(opened.error());
@@ -326,7 +329,7 @@ int run(LearnOptions options) {
     figures["meta.model"] = *model;
   }
   if (!options.svg.empty()) {
-    if (auto problem = write_output(options.svg, learn_curve(all, suite))) {
+    if (auto problem = long_work::write_output(options.svg, learn_curve(all, suite))) {
       return refused(*problem);
     }
   }

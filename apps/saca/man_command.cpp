@@ -15,6 +15,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/suggestion.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -158,7 +159,8 @@ struct ManOptions {
 /// All pages, as files of a folder.
 std::optional<Error> write_all(const CLI::App& line, const fs::path& folder) {
   const auto write = [&](const CLI::App& command) {
-    return write_output(folder / (page_name(full_name(command)) + ".1"), page(line, command));
+    return long_work::write_output(folder / (page_name(full_name(command)) + ".1"),
+                                   page(line, command));
   };
   auto problem = write(line);
   for (const CLI::App* const one : commands_of(line)) {

@@ -10,17 +10,19 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
-#include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
-#include "apps/saca/resumable.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/version.h"
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/eval/trigger_case.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/items_row.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/resumable_work.h"
 #include "saca/thinking/memory/case_json.h"
 
 namespace saca::app {
@@ -36,7 +38,7 @@ struct BuildOptions {
 };
 
 /// What one encounter gave, and its twin without risk: none where the trigger never fires.
-using Gained = ItemsRow<memory::Case>;
+using Gained = long_work::ItemsRow<memory::Case>;
 
 /// What cases are worked out with; the planes outlive it.
 struct CaseTools {
@@ -86,28 +88,29 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
     return planes.error();
   }
   const CaseTools with{*planes.value(), options.draws};
-  return rows_of<Gained>(
+  return long_work::rows_of<Gained>(
       {.journal =
            options.from.journal.empty() ? options.from.output + ".journal" : options.from.journal,
        .title = fmt::format("saca {} {} of {}", version_text(), command, encounters.what),
        .progress = "memory of " + options.from.name,
        .unit = "encounters",
        .count = static_cast<std::size_t>(encounters.count),
+       .display = progress_display(),
        .threads = options.from.threads,
        .row = [&](std::size_t number) { return gained_of(encounters, options, with, number); },
-       .line_of = items_line<memory::Case>,
+       .line_of = long_work::items_line<memory::Case>,
        .row_from =
            [](const std::string& line) {
-             return items_row<memory::Case>(line, memory::case_from_json);
+             return long_work::items_row<memory::Case>(line, memory::case_from_json);
            }});
 }
 
 int build(const BuildOptions& options) {
   const SuiteCommandOptions& from = options.from;
-  if (const auto problem = why_outputs_unwritable({from.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({from.output})) {
     return refused(*problem);
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const std::string command =
       fmt::format("memory build {} --split {} --car {} --seed {} --draws {}{}{}", from.name,
                   from.split, from.car, from.seed, options.draws, from.exact ? " --exact" : "",
@@ -121,14 +124,15 @@ int build(const BuildOptions& options) {
     return was_interrupted;
   }
   const std::size_t num_encounters = gathered.value()->size();
-  int num_failed = 0;
-  std::vector<memory::Case> cases = all_items(*std::move(gathered).value(), num_failed);
+  auto [cases, problems] = long_work::all_items(*std::move(gathered).value());
+  complain_of(problems);
+  const std::size_t num_failed = problems.size();
   std::array<int, manoeuvre::num_policies> best{};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].id = static_cast<match::CaseId>(i + 1);
     ++best.at(manoeuvre::index(cases[i].best));
   }
-  if (const auto problem = write_output(from.output, memory::cases_text(cases))) {
+  if (const auto problem = long_work::write_output(from.output, memory::cases_text(cases))) {
     return refused(*problem);
   }
   if (options.as_json) {

@@ -14,11 +14,14 @@
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/scale_fit.h"
 #include "saca/lab/eval/transfer.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/report/chart_svg.h"
 
 namespace saca::app {
@@ -152,13 +155,13 @@ void print_fit(const eval::ScaleFit& fit) {
 /// Fits what makes a difference, and holds it against other cases.
 int fit_similarity(const CalibrateOptions& options, const std::vector<memory::Case>& cases,
                    const std::vector<memory::Case>& checks) {
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   SteadyClock clock;
-  ProgressLine progress("scales", 0, clock);
+  long_work::ProgressLine progress("scales", 0, clock, progress_display());
   const auto fit = eval::fit_scales(
       cases, some_of(cases, options.fit_scenes), {}, options.threads, [&](int count, double error) {
         progress.show(count, 0, fmt::format(" tries, error {:.5f}", error));
-        return !interrupted();
+        return !long_work::interrupted();
       });
   if (!fit) {
     return refused({Error::Code::malformed, options.cases +
@@ -211,7 +214,7 @@ Result<std::vector<memory::Case>> read_checks(const CalibrateOptions& options) {
 }
 
 int calibrate(const CalibrateOptions& options) {
-  if (const auto problem = why_outputs_unwritable({options.svg})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
   const auto cases = read_cases(options.cases);
@@ -263,7 +266,7 @@ int calibrate(const CalibrateOptions& options) {
     tell(drawn_of, "memory.transfer.check", drawn, !options.as_json, out);
   }
   if (!options.svg.empty()) {
-    if (const auto problem = write_output(options.svg, picture_of(drawn, drawn_of))) {
+    if (const auto problem = long_work::write_output(options.svg, picture_of(drawn, drawn_of))) {
       return refused(*problem);
     }
   }

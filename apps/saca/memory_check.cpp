@@ -14,9 +14,11 @@
 #include "apps/saca/places.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/case_check.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/thinking/memory/case_json.h"
 #include "saca/thinking/memory/store.h"
 
@@ -49,10 +51,11 @@ Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
                                                    : memory::is_trusted_by(made_with, one);
   });
   SteadyClock clock;
-  ProgressLine progress("cases", static_cast<int>(cases.size()), clock);
+  long_work::ProgressLine progress("cases", static_cast<int>(cases.size()), clock,
+                                   progress_display());
   Counts counts{};
   constexpr std::size_t at_once = 32;
-  for (std::size_t first = 0; first < cases.size() && !interrupted(); first += at_once) {
+  for (std::size_t first = 0; first < cases.size() && !long_work::interrupted(); first += at_once) {
     std::vector<std::optional<memory::Case>> checked(std::min(at_once, cases.size() - first));
     in_parallel(checked.size(), options.threads, [&](std::size_t i) {
       checked[i] = eval::checked(cases[first + i], tools, intent, options.draws, made_with);
@@ -89,7 +92,7 @@ int check_bank(const CheckCasesOptions& options) {
   if (!planes.has_value()) {
     return refused(planes.error());
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto counts = check_all(bank.store, std::move(bank.cases), *planes.value(), options);
   if (!counts.has_value()) {
     return refused(counts.error());
@@ -107,7 +110,7 @@ int check_bank(const CheckCasesOptions& options) {
         "{}: {} cases confirmed and trusted, {} stay as they were, {} refuted and quarantined\n",
         bank.store.name(), confirmed, open, refuted);
   }
-  if (interrupted()) {
+  if (long_work::interrupted()) {
     complain("interrupted: the same command goes on from here");
     return was_interrupted;
   }

@@ -18,6 +18,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/base/formats/compressed_text.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/thinking/memory/case_json.h"
 #include "saca/thinking/memory/scene_json.h"
 #include "saca/thinking/memory/store.h"
@@ -88,16 +89,16 @@ std::optional<Error> write_pictures(const MemoryOptions& options, memory::Store&
     return all.error();
   }
   if (!options.svg.empty()) {
-    if (auto problem = write_output(options.svg, case_picture(one, all.value()))) {
+    if (auto problem = long_work::write_output(options.svg, case_picture(one, all.value()))) {
       return problem;
     }
   }
   return options.html.empty()
              ? std::nullopt
-             : write_output(options.html,
-                            case_page(one, all.value(),
-                                      fmt::format("saca memory show {} --memory {} --html {}",
-                                                  one.id, memory.name(), options.html)));
+             : long_work::write_output(
+                   options.html, case_page(one, all.value(),
+                                           fmt::format("saca memory show {} --memory {} --html {}",
+                                                       one.id, memory.name(), options.html)));
 }
 
 int show_case(const MemoryOptions& options) {
@@ -130,7 +131,7 @@ int export_cases(const MemoryOptions& options) {
     return refused(bank.error());
   }
   const std::vector<memory::Case>& cases = bank.value().cases;
-  if (const auto problem = write_output(options.cases, memory::cases_text(cases))) {
+  if (const auto problem = long_work::write_output(options.cases, memory::cases_text(cases))) {
     return refused(*problem);
   }
   app::print("{}: {} cases\n", options.cases, cases.size());
@@ -274,7 +275,7 @@ Result<ReadBank> read_bank(const std::string& file) {
 
 Result<memory::Store> open_to_add(const std::string& file) {
   if (!memory::is_on_a_server(file)) {
-    if (auto problem = make_folder_of(file)) {
+    if (auto problem = long_work::make_folder_of(file)) {
       return *std::move(problem);
     }
   }

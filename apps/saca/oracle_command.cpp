@@ -14,6 +14,7 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/oracle.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/thinking/rollout/describe.h"
 
 namespace saca::app {
@@ -114,7 +115,7 @@ int run(const OracleCommand& options) {
   if (!time.value()) {
     return nothing_to_decide;
   }
-  if (const auto problem = why_outputs_unwritable({options.svg})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
   const scenario::Scenario& scenario = inputs.value().scenario;
@@ -123,7 +124,7 @@ int run(const OracleCommand& options) {
                    {*time.value(), options.draws, options.seed, options.threads});
   if (!options.svg.empty()) {
     const std::string sheet = report::contact_sheet(sheet_of(oracle, scenario));
-    auto problem = write_output(options.svg, sheet);
+    auto problem = long_work::write_output(options.svg, sheet);
     if (problem) {
       complain(problem->message);
       return cannot_write;

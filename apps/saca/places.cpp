@@ -183,36 +183,16 @@ bool is_png_or_html(const std::string& output) {
   return false;
 }
 
-std::optional<Error> why_outputs_unwritable(std::initializer_list<fs::path> files) {
-  for (const fs::path& file : files) {
-    if (auto problem = file.empty() ? std::nullopt : why_unwritable(file)) {
-      return problem;
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> write_output(const fs::path& file, std::string_view text) {
-  const auto problem = make_folder_of(file);
-  return problem ? problem : write_file(file, text);
-}
-
-std::optional<Error> make_folder_of(const fs::path& file) {
-  std::error_code problem;
-  if (file.has_parent_path()) {
-    fs::create_directories(file.parent_path(), problem);
-  }
-  if (problem) {
-    return Error{Error::Code::unwritable,
-                 file.parent_path().string() + ": cannot be made: " + problem.message()};
-  }
-  return std::nullopt;
-}
-
 void complain(const std::string& message) {
   constexpr std::size_t longest_complaint = 8'000;  // characters; a path has up to 4096
   std::fputs(fmt::format("saca: {}\n", one_line(message, longest_complaint)).c_str(),
              stderr);  // which may be closed
+}
+
+void complain_of(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) {
+    complain(message);
+  }
 }
 
 int refused(const Error& problem) {

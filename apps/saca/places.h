@@ -1,10 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "saca/base/core/result.h"
@@ -71,23 +69,14 @@ struct ModelChoice {
 [[nodiscard]] std::filesystem::path danger_place(const Places& places, const std::string& car,
                                                  const std::string& table);
 
-/// Before long work: why one of the files that it is to leave could not be written
-/// (`why_unwritable`). An empty name is none.
-[[nodiscard]] std::optional<Error> why_outputs_unwritable(
-    std::initializer_list<std::filesystem::path> files);
-
-/// `write_file`, with the folder made that the file is to lie in.
-[[nodiscard]] std::optional<Error> write_output(const std::filesystem::path& file,
-                                                std::string_view text);
-
-/// Makes the folder that `file` is to lie in.
-[[nodiscard]] std::optional<Error> make_folder_of(const std::filesystem::path& file);
-
 /// Whether the name of an --output ends in .png or .html; where it does not, that is said.
 [[nodiscard]] bool is_png_or_html(const std::string& output);
 
 /// Says what is wrong on the error stream.
 void complain(const std::string& message);
+
+/// Likewise of each.
+void complain_of(const std::vector<std::string>& messages);
 
 /// Says it; the exit code that goes with it.
 [[nodiscard]] int refused(const Error& problem);

@@ -13,6 +13,7 @@
 #include "apps/saca/reach_commands.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/chart_svg.h"
 #include "saca/lab/verification/convergence.h"
 
@@ -67,7 +68,7 @@ std::string convergence_picture(const std::vector<Refinement>& all) {
 }
 
 int check(const CheckOptions& options) {
-  if (const auto problem = why_outputs_unwritable({options.picture})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.picture})) {
     return refused(*problem);
   }
   const std::vector<Refinement> all = verification::refinements(options.grids, usual_threads());
@@ -88,7 +89,7 @@ int check(const CheckOptions& options) {
   if (options.picture.empty()) {
     return success;
   }
-  auto problem = write_output(options.picture, convergence_picture(all));
+  auto problem = long_work::write_output(options.picture, convergence_picture(all));
   return problem ? refused(*problem) : success;
 }
 

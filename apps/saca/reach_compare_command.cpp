@@ -15,6 +15,7 @@
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/authors_page.h"
 #include "saca/lab/verification/authors_comparison.h"
 #include "saca/thinking/danger/avoidance_case.h"
@@ -127,7 +128,7 @@ int compare_values(const CompareOptions& options) {
   if (const auto problem = not_comparable(options.file, solved.value())) {
     return refused(*problem);
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const auto network = verification::read_authors_network(options.network);
@@ -150,7 +151,7 @@ int compare_values(const CompareOptions& options) {
   if (!made.has_value()) {
     return refused(made.error());
   }
-  auto problem = write_output(options.output, made.value());
+  auto problem = long_work::write_output(options.output, made.value());
   if (problem) {
     return refused(*problem);
   }

@@ -17,6 +17,7 @@
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/vec2.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/record_page.h"
 #include "saca/lab/report/value_json.h"
 #include "saca/lab/report/value_map.h"
@@ -231,7 +232,7 @@ int show(const ReachShowOptions& options) {
   if (!read.has_value()) {
     return refused(read.error());
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const Solution& solved = read.value();
@@ -256,7 +257,7 @@ int show(const ReachShowOptions& options) {
   if (!made.has_value()) {
     return refused(made.error());
   }
-  if (const auto problem = write_output(options.output, made.value())) {
+  if (const auto problem = long_work::write_output(options.output, made.value())) {
     return refused(*problem);
   }
   app::print("{}: {}\n", options.output, what_is_shown(solved, view));

@@ -16,14 +16,17 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/reach_problem.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/names.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/levelset/solve.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/thinking/danger/value_file.h"
 
 namespace saca::app {
@@ -120,10 +123,10 @@ int solve_case(const SolveOptions& options) {
   if (!before.has_value()) {
     return refused(before.error());
   }
-  if (const auto wrong = why_outputs_unwritable({options.output})) {
+  if (const auto wrong = long_work::why_outputs_unwritable({options.output})) {
     return refused(*wrong);
   }
-  if (auto wrong = make_folder_of(options.output)) {
+  if (auto wrong = long_work::make_folder_of(options.output)) {
     return refused(*wrong);
   }
   std::error_code none;
@@ -133,20 +136,20 @@ int solve_case(const SolveOptions& options) {
         {Error::Code::unwritable,
          options.output + (is_folder ? ": is a folder" : ": is no file") + ", want a file"});
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   SteadyClock clock;
   const Clock::Time start = clock.now();
   const double horizon = problem.value().times.back();
   constexpr int permille = 1'000;
   const int remembered =
       before.value() ? static_cast<int>(permille * before.value()->times.back() / horizon) : 0;
-  ProgressLine line(options.name, permille, clock);
+  long_work::ProgressLine line(options.name, permille, clock, progress_display());
   const auto solved = levelset::solve(
       problem.value(), options.scheme, std::move(before).value(),
       {.step =
            [&](double tau) {
              line.show(static_cast<int>(permille * tau / horizon), remembered, " per mille");
-             return !interrupted();
+             return !long_work::interrupted();
            },
        .keep = [&](const Solution& so_far) { return danger::write_solved(part, so_far); }});
   if (!solved.has_value()) {

@@ -10,6 +10,7 @@
 #include "apps/saca/suite_running.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -137,7 +138,7 @@ int run_regulation(RegulationOptions options) {
     complain("--output: want a name that ends in .html, got \"" + options.output + "\"");
     return wrong_command_line;
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const auto ran = run_cells(options, methods.value());
@@ -150,9 +151,9 @@ int run_regulation(RegulationOptions options) {
   }
   const RegulationRun& run = *ran.value();
   const std::string text = json_text(json_of(run)) + "\n";
-  auto problem = write_output(options.output, report::suite_page(page_of(run)));
+  auto problem = long_work::write_output(options.output, report::suite_page(page_of(run)));
   if (!problem) {
-    problem = write_output(fs::path(options.output).replace_extension(".json"), text);
+    problem = long_work::write_output(fs::path(options.output).replace_extension(".json"), text);
   }
   if (problem) {
     return refused(*problem);

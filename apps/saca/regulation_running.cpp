@@ -8,10 +8,12 @@
 #include <sstream>
 
 #include "apps/saca/planes_making.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/suite_running.h"
 #include "saca/base/core/suggestion.h"
 #include "saca/lab/eval/suite.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
@@ -195,15 +197,16 @@ Result<std::optional<RegulationRun>> run_cells(const RegulationOptions& options,
       run.elsewhere.push_back(std::move(other));
     }
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   SteadyClock clock;
   const std::size_t count = cars.size() * run.cells.size();
-  ProgressLine progress("suite " + run.regulation.name,
-                        static_cast<int>(count * (1 + run.elsewhere.size())), clock);
+  long_work::ProgressLine progress("suite " + run.regulation.name,
+                                   static_cast<int>(count * (1 + run.elsewhere.size())), clock,
+                                   progress_display());
   std::size_t before = 0;
   const auto go_on = [&](std::size_t done) {
     progress.show(static_cast<int>(before + done), 0, " tests");
-    return !interrupted();
+    return !long_work::interrupted();
   };
   bool all = play(run, cars, options.threads, go_on);
   for (RegulationRun& other : run.elsewhere) {

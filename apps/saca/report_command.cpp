@@ -6,6 +6,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/record_page.h"
 
 namespace saca::app {
@@ -28,7 +29,7 @@ int render(const ReportOptions& options) {
   const std::filesystem::path file =
       options.output.empty() ? std::filesystem::path(options.record).replace_filename("report.html")
                              : std::filesystem::path(options.output);
-  if (const auto problem = write_output(file, page.value())) {
+  if (const auto problem = long_work::write_output(file, page.value())) {
     return refused(*problem);
   }
   app::print("Report: {}\n", std::filesystem::absolute(file).string());

@@ -16,7 +16,6 @@
 #include "apps/saca/invocation.h"
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/shipped_cases.h"
 #include "apps/saca/story.h"
@@ -28,6 +27,8 @@
 #include "saca/lab/encounter/provenance.h"
 #include "saca/lab/encounter/review.h"
 #include "saca/lab/encounter/trace.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/record_in_words.h"
 #include "saca/lab/report/record_page.h"
 #include "saca/onboard/atlas/atlas_file.h"
@@ -132,11 +133,11 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
                                    const fs::path& report) {
-  if (auto problem = write_output(folder / "record.json", record)) {
+  if (auto problem = long_work::write_output(folder / "record.json", record)) {
     return problem;
   }
   const auto page = report::html_report(record);
-  return page.has_value() ? write_output(report, page.value()) : page.error();
+  return page.has_value() ? long_work::write_output(report, page.value()) : page.error();
 }
 
 /// Of a record that this command makes now.
@@ -170,14 +171,15 @@ std::string wrong_trace_name(const std::string& name) {
 
 std::optional<Error> write_trace(const fs::path& file, const encounter::Setup& setup,
                                  const encounter::Record& record) {
-  return write_output(file, file.extension() == ".csv" ? encounter::trace_csv(setup, record)
-                                                       : encounter::trace_jsonl(setup, record));
+  return long_work::write_output(file, file.extension() == ".csv"
+                                           ? encounter::trace_csv(setup, record)
+                                           : encounter::trace_jsonl(setup, record));
 }
 
 std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& tape) {
   runtime::TapeFile by_this_program = tape;
   by_this_program.header.program = SACA_VERSION;
-  return write_output(file, runtime::tape_text(by_this_program));
+  return long_work::write_output(file, runtime::tape_text(by_this_program));
 }
 
 /// nullopt: what SACA decides is carried out.
@@ -196,9 +198,9 @@ Result<std::optional<manoeuvre::Plan>> forced_plan(const RunOptions& options) {
 
 /// Before anything is played.
 std::optional<Error> why_unwritable(const RunOptions& options, const std::string& scenario) {
-  return why_outputs_unwritable({fs::path(options.output) / scenario / "record.json",
-                                 options.report, options.trace, options.tape,
-                                 options.record_replies});
+  return long_work::why_outputs_unwritable({fs::path(options.output) / scenario / "record.json",
+                                            options.report, options.trace, options.tape,
+                                            options.record_replies});
 }
 
 /// All that a run is made with.
@@ -292,7 +294,7 @@ encounter::Setup setup_of(const Means& means, const RunOptions& options, Clock& 
 
 /// Has the model tell its reasons anew where they did not hold, and look back.
 void look_back(const encounter::Setup& setup, encounter::Record& record, Story& story) {
-  const InterruptStop interrupt;
+  const long_work::InterruptStop interrupt;
   if (setup.model != nullptr) {
     for (arbitration::Preview& preview : record.previews) {
       preview.retold = arbitration::retold(preview, *setup.model, *setup.clock, interrupt.token());
@@ -346,7 +348,7 @@ int run(const RunOptions& options) {
   std::string text = encounter::record_json(setup, record, &means.provenance);
   story.ending(means.inputs.scenario, record, in_short(text));
   // What was played is written down even if nobody wants to wait for the review.
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   if (options.review) {
     look_back(setup, record, story);
     text = encounter::record_json(setup, record, &means.provenance);

@@ -18,6 +18,10 @@ const Settings& settings() {
   return the_settings();
 }
 
+long_work::ProgressDisplay progress_display() {
+  return settings().quiet ? long_work::ProgressDisplay::silent : long_work::ProgressDisplay::shown;
+}
+
 void add_settings(CLI::App& line) {
   line.add_flag("--quiet", the_settings().quiet,
                 "Neither progress nor story: only errors, and what was asked for");

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "saca/lab/long_work/progress.h"
+
 namespace saca::app {
 
 /// What stands before the command and holds for all of them.
@@ -13,6 +15,9 @@ struct Settings {
 
 /// This process's; they are set once, while the line is read.
 [[nodiscard]] const Settings& settings();
+
+/// What `--quiet` leaves of lines of progress.
+[[nodiscard]] long_work::ProgressDisplay progress_display();
 
 /// The options `--quiet` and `--cache`.
 void add_settings(CLI::App& line);

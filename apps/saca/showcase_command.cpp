@@ -11,11 +11,14 @@
 #include "apps/saca/pictures.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/surveying.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/showcase.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 
 namespace saca::app {
 namespace {
@@ -70,11 +73,11 @@ Result<std::optional<std::vector<ShowcasePage>>> shown(const DrawnSuite& suite,
   const auto all = eval::candidates(findings, policy);
   const auto count = std::min(all.size(), static_cast<std::size_t>(options.tries));
   SteadyClock clock;
-  ProgressLine progress(fmt::format("{} under noise", name(policy)),
-                        std::max(1, static_cast<int>(count)), clock);
+  long_work::ProgressLine progress(fmt::format("{} under noise", name(policy)),
+                                   std::max(1, static_cast<int>(count)), clock, progress_display());
   int good = 0;
   for (std::size_t i = 0; i < count && good < wanted(policy); ++i) {
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return std::optional<std::vector<ShowcasePage>>();
     }
     const auto sample = suite.source.sample(all[i].number);
@@ -107,11 +110,11 @@ Result<std::optional<std::vector<ShowcasePage>>> shown(const DrawnSuite& suite,
 
 std::optional<Error> write(const ShowcasePage& one, const std::string& output) {
   const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
-  if (auto problem = write_output(file, scenario::write_scenario(one.scenario))) {
+  if (auto problem = long_work::write_output(file, scenario::write_scenario(one.scenario))) {
     return problem;
   }
-  return write_output(fs::path(output) / (one.scenario.name + ".svg"),
-                      report::contact_sheet(sheet_of(one.oracle, one.scenario)));
+  return long_work::write_output(fs::path(output) / (one.scenario.name + ".svg"),
+                                 report::contact_sheet(sheet_of(one.oracle, one.scenario)));
 }
 
 int run(const ShowcaseCommand& options) {
@@ -119,7 +122,8 @@ int run(const ShowcaseCommand& options) {
   if (!source.has_value()) {
     return refused(source.error());
   }
-  if (const auto problem = why_outputs_unwritable({fs::path(options.output) / "x.toml"})) {
+  if (const auto problem =
+          long_work::why_outputs_unwritable({fs::path(options.output) / "x.toml"})) {
     return refused(*problem);
   }
   const auto findings = survey(source.value(), options.survey);

@@ -13,6 +13,7 @@
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/traffic_suite.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -152,8 +153,8 @@ std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const
   if (auto problem = write_rows_and_page(run, result, options)) {
     return problem;
   }
-  return write_output(fs::path(options.output).replace_extension(".json"),
-                      json_text(figures) + "\n");
+  return long_work::write_output(fs::path(options.output).replace_extension(".json"),
+                                 json_text(figures) + "\n");
 }
 
 int watch(const SuiteCommand& options) {
@@ -256,7 +257,7 @@ int run(const CLI::App& line, SuiteCommand options) {
     suite.output =
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
   }
-  if (const auto problem = why_outputs_unwritable({suite.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({suite.output})) {
     return refused(*problem);
   }
   const auto ran = run_suite(suite, "suite", methods.value());

@@ -12,6 +12,7 @@
 #include "apps/saca/suite_decisions.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/suite_file.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -439,8 +440,8 @@ std::optional<Error> write_rows_and_page(const SuiteRun& run, const SuiteResult&
   if (auto problem = eval::write_suite(options.output, run.rows, run.methods, run.meta.dump())) {
     return problem;
   }
-  return write_output(std::filesystem::path(options.output).replace_extension(".html"),
-                      report::suite_page(page_of(run, result, options)));
+  return long_work::write_output(std::filesystem::path(options.output).replace_extension(".html"),
+                                 report::suite_page(page_of(run, result, options)));
 }
 
 }  // namespace saca::app

@@ -9,7 +9,7 @@
 
 #include "apps/saca/danger_check.h"
 #include "apps/saca/planes_making.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/suite_sources.h"
 #include "apps/saca/suite_thinking.h"
 #include "apps/saca/surveying.h"
@@ -20,6 +20,9 @@
 #include "saca/base/core/journal.h"
 #include "saca/base/core/suggestion.h"
 #include "saca/lab/learned_danger/learned.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 
 namespace saca::app {
 namespace {
@@ -246,7 +249,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   const std::shared_ptr<Bench>& bench = opened.value();
   const SuiteEncounters& source = bench->source;
   const std::string path = options.journal.empty() ? options.output + ".journal" : options.journal;
-  if (auto problem = make_folder_of(path)) {
+  if (auto problem = long_work::make_folder_of(path)) {
     return *problem;
   }
   const auto journal = Journal::open(
@@ -277,22 +280,22 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   done.rows.resize(std::min(done.rows.size(), count));
 
   SteadyClock clock;
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto before = static_cast<int>(done.rows.size());
-  ProgressLine progress(command, source.count, clock);
+  long_work::ProgressLine progress(command, source.count, clock, progress_display());
   const Clock::Time start = clock.now();
   const SuiteThinking& thinking = *bench->thinking;
   const std::size_t at_once =
       static_cast<std::size_t>(options.threads) * (thinking.has_model() ? 1 : batch_per_thread);
   while (done.rows.size() < count) {
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return std::optional<SuiteRun>();
     }
     const std::size_t first = done.rows.size();
     std::vector<SuiteRow> next(std::min(at_once, count - first));
     in_parallel(next.size(), options.threads,
                 [&](std::size_t i) { next[i] = row_of(*bench, first + i); });
-    if (thinking.has_model() && interrupted()) {  // questions may have been withdrawn
+    if (thinking.has_model() && long_work::interrupted()) {  // questions may have been withdrawn
       return std::optional<SuiteRun>();
     }
     if (const auto failure = thinking.failure()) {
@@ -349,7 +352,7 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
   const fs::path file =
       fs::path("runs") / fmt::format("{}-{}-{}.toml", fs::path(options.name).filename().string(),
                                      options.split, number);
-  if (auto problem = write_output(
+  if (auto problem = long_work::write_output(
           file, scenario::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
     return *problem;
   }

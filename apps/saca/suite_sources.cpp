@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/lab/eval/paper_tables.h"
 #include "saca/lab/importers/hundred_car_release.h"
+#include "saca/lab/long_work/interrupt.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
@@ -45,9 +45,9 @@ Result<SuiteEncounters> open_hundred_car(const SuiteCommandOptions& options, Inp
                     options.data.size())};
   }
   const std::string& folder = options.data.front();
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   const auto outcomes = importers::import_hundred_cars(
-      folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
+      folder, {}, [](std::size_t, std::size_t) { return !long_work::interrupted(); });
   if (!outcomes.has_value()) {
     return outcomes.error();
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/saca/model.h"
+#include "saca/lab/long_work/interrupt.h"
 
 namespace saca::app {
 namespace {
@@ -69,8 +70,8 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
       return std::optional(opened.error());
     }
     if (thinking->interrupt_ == nullptr) {
-      watch_for_interrupt();
-      thinking->interrupt_ = std::make_unique<InterruptStop>();
+      long_work::watch_for_interrupt();
+      thinking->interrupt_ = std::make_unique<long_work::InterruptStop>();
     }
     model = std::move(opened).value();
     shared =

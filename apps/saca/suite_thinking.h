@@ -5,9 +5,9 @@
 #include <string>
 
 #include "apps/saca/places.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/thinking_options.h"
 #include "saca/base/core/lending_pool.h"
+#include "saca/lab/long_work/interrupt.h"
 #include "saca/runtime/planes.h"
 #include "saca/thinking/language_model/shared_model.h"
 #include "saca/thinking/memory/experience.h"
@@ -59,7 +59,7 @@ class SuiteThinking {
   std::unique_ptr<LendingPool<memory::Store>> memories_;
   std::unique_ptr<const memory::Experience> experience_;
   std::optional<std::string> memory_text_;
-  std::unique_ptr<InterruptStop> interrupt_;
+  std::unique_ptr<long_work::InterruptStop> interrupt_;
   std::unique_ptr<language_model::LanguageModel> model_;
   std::unique_ptr<language_model::SharedModel> shared_;
   std::unique_ptr<language_model::LanguageModel> untuned_model_;

@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <string_view>
 
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/prepare/car_file.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
@@ -85,12 +88,13 @@ Result<std::optional<std::vector<Finding>>> survey(const DrawnSuite& suite,
   const std::string path = options.journal.empty() ? fmt::format("runs/survey-{}-{}.journal",
                                                                  options.suite, options.split)
                                                    : options.journal;
-  if (auto problem = make_folder_of(path)) {
+  if (auto problem = long_work::make_folder_of(path)) {
     return *problem;
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   SteadyClock clock;
-  ProgressLine progress("survey of " + options.suite, options.count, clock);
+  long_work::ProgressLine progress("survey of " + options.suite, options.count, clock,
+                                   progress_display());
   return eval::survey(
       {.source = &suite.source,
        .car = &suite.inputs.car,
@@ -100,7 +104,7 @@ Result<std::optional<std::vector<Finding>>> survey(const DrawnSuite& suite,
        .journal = path,
        .title = fmt::format("saca {} survey of {}, {} split, {} ({:016x})", version_text(),
                             options.suite, options.split, options.car, suite.digest)},
-      {.is_interrupted = interrupted,
+      {.is_interrupted = long_work::interrupted,
        .progress = [&](int done, int before) { progress.show(done, before, " encounters"); }});
 }
 

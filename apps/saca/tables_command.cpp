@@ -16,12 +16,13 @@
 #include "apps/saca/model.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/suite_running.h"
 #include "apps/saca/table_figures.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -155,11 +156,11 @@ Result<std::vector<TimedModel>> time_replies(const TablesCommand& options) {
   const PlanesOfCar& of_car = *planes.value();
   const reflex::Thresholds& thresholds = of_car.setup.thresholds;
   constexpr double patience = 60.0;  // [s]
-  const InterruptStop interrupt;
+  const long_work::InterruptStop interrupt;
   std::vector<TimedModel> timed;
   for (const eval::PublishedReplies& published : eval::published_replies()) {
     const PaperTable& table = *eval::find_paper_table(published.table);
-    if (!is_wanted(table, options) || interrupted()) {
+    if (!is_wanted(table, options) || long_work::interrupted()) {
       continue;
     }
     const auto questions = questions_of(table, of_car, options.seed);
@@ -268,7 +269,7 @@ std::optional<int> add_table(const PaperTable& table, const TablesCommand& optio
 
 int run(const TablesCommand& options) {
   const fs::path index = fs::path(options.output) / "index.html";
-  if (const auto problem = why_outputs_unwritable({index})) {
+  if (const auto problem = long_work::why_outputs_unwritable({index})) {
     return refused(*problem);
   }
   const auto inputs = read_inputs("compact_rwd_ev");
@@ -282,7 +283,7 @@ int run(const TablesCommand& options) {
     complain(methods.error().message);
     return wrong_command_line;
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   Book book = empty_book(options);
   for (const PaperTable& table : eval::paper_tables()) {
     if (is_wanted(table, options)) {
@@ -294,7 +295,7 @@ int run(const TablesCommand& options) {
   const bool has_model = !asked_models(options.thinking).empty();
   if (has_model) {
     const auto timed = time_replies(options);
-    if (interrupted()) {  // whoever interrupts a terminal interrupts the model as well
+    if (long_work::interrupted()) {  // whoever interrupts a terminal interrupts the model as well
       return interrupted_run();
     }
     if (!timed.has_value()) {
@@ -308,9 +309,10 @@ int run(const TablesCommand& options) {
   book.page.footnotes = footnotes_of(book.meta);
   json out = book.meta;
   out.update(book.figures);
-  auto problem = write_output(index, report::suite_page(book.page));
+  auto problem = long_work::write_output(index, report::suite_page(book.page));
   if (!problem) {
-    problem = write_output(fs::path(options.output) / "tables.json", json_text(out) + "\n");
+    problem =
+        long_work::write_output(fs::path(options.output) / "tables.json", json_text(out) + "\n");
   }
   if (problem) {
     return refused(*problem);

@@ -11,8 +11,11 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/clock.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/recordings/pack.h"
 #include "saca/lab/recordings/recorded_set.h"
 #include "saca/lab/recordings/set_file.h"
@@ -88,23 +91,24 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
     complain(fmt::format("{}: want files *{}, got none", options.places.front(), source.ending));
     return bad_input;
   }
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   SteadyClock clock;
-  ProgressLine line("traffic " + source.name, static_cast<int>(files.value().size()), clock);
+  long_work::ProgressLine line("traffic " + source.name, static_cast<int>(files.value().size()),
+                               clock, progress_display());
   const Result<PackResult> packed = source.pack(files.value(), [&](std::size_t done, std::size_t) {
     line.show(static_cast<int>(done), 0, "");
-    return !interrupted();
+    return !long_work::interrupted();
   });
   if (!packed.has_value()) {
-    return interrupted() ? static_cast<int>(was_interrupted) : refused(packed.error());
+    return long_work::interrupted() ? static_cast<int>(was_interrupted) : refused(packed.error());
   }
   for (const std::string& message : packed.value().refused) {
     complain(message);
   }
-  if (const auto problem = make_folder_of(options.output)) {
+  if (const auto problem = long_work::make_folder_of(options.output)) {
     return refused(*problem);
   }
   if (const auto problem = recordings::write_set(options.output, packed.value().set)) {

@@ -13,6 +13,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/thresholds_options.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/suite_page.h"
 
 namespace saca::app {
@@ -359,7 +360,7 @@ report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figure
 }  // namespace
 
 int run_traffic_suite(const TrafficWatch& options, bool as_json) {
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const auto watched = watch_traffic(options);
@@ -384,10 +385,11 @@ int run_traffic_suite(const TrafficWatch& options, bool as_json) {
   page.replace_extension(".html");
   fs::path beside = options.output;
   beside.replace_extension(".json");
-  if (auto problem = write_output(page, report::suite_page(traffic_page(traffic, figures)))) {
+  if (auto problem =
+          long_work::write_output(page, report::suite_page(traffic_page(traffic, figures)))) {
     return refused(*problem);
   }
-  if (auto problem = write_output(beside, text + "\n")) {
+  if (auto problem = long_work::write_output(beside, text + "\n")) {
     return refused(*problem);
   }
   if (as_json) {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/thresholds_options.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
@@ -19,6 +19,9 @@
 #include "saca/lab/eval/traffic_drives.h"
 #include "saca/lab/importers/hundred_car_release.h"
 #include "saca/lab/importers/traffic_recording.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/recordings/hundred_car_file.h"
 #include "saca/lab/recordings/pack.h"
 
@@ -49,7 +52,7 @@ std::optional<Error> hash_files(const std::vector<fs::path>& files, Fnv& hash) {
     }
     hash.add(file.filename().string());
     hash.add(text.value());
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return stopped();
     }
   }
@@ -79,7 +82,7 @@ Result<RecordedEgo> recorded_ego(const eval::TrafficDrive& drive) {
 }
 
 std::optional<Error> find_commonroad(const std::vector<fs::path>& files, Findings& found) {
-  const auto there = eval::drives_in(files, [] { return !interrupted(); });
+  const auto there = eval::drives_in(files, [] { return !long_work::interrupted(); });
   if (!there.has_value()) {
     return there.error();
   }
@@ -128,7 +131,8 @@ std::optional<Error> find_hundred_cars(const fs::path& folder, Findings& found) 
   std::vector<std::vector<importers::HundredCarOutcome>> all;
   for (const double before : times_before) {
     auto outcomes = importers::import_hundred_cars(
-        folder, {.before = before}, [](std::size_t, std::size_t) { return !interrupted(); });
+        folder, {.before = before},
+        [](std::size_t, std::size_t) { return !long_work::interrupted(); });
     if (!outcomes.has_value()) {
       return outcomes.error();
     }
@@ -283,12 +287,12 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
   if (!planes.has_value()) {
     return planes.error();
   }
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
   Findings found;
   for (const std::string& folder : options.folders) {
     if (auto problem = find_in(folder, found)) {
-      return interrupted() ? Result<std::optional<WatchedTraffic>>(std::nullopt)
-                           : Result<std::optional<WatchedTraffic>>(*problem);
+      return long_work::interrupted() ? Result<std::optional<WatchedTraffic>>(std::nullopt)
+                                      : Result<std::optional<WatchedTraffic>>(*problem);
     }
   }
   WatchedTraffic traffic;
@@ -301,7 +305,7 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
                  options.folders.front() + ": want a car's recording, got none"};
   }
   const std::string path = options.output + ".journal";
-  if (auto problem = make_folder_of(path)) {
+  if (auto problem = long_work::make_folder_of(path)) {
     return *problem;
   }
   const auto journal = Journal::open(
@@ -320,9 +324,10 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
   const std::size_t count = traffic.drives.size();
   const auto before = static_cast<int>(traffic.rows.size());
   SteadyClock clock;
-  ProgressLine progress("suite traffic", static_cast<int>(count), clock);
+  long_work::ProgressLine progress("suite traffic", static_cast<int>(count), clock,
+                                   progress_display());
   while (traffic.rows.size() < count) {
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return std::optional<WatchedTraffic>();
     }
     const std::size_t first = traffic.rows.size();

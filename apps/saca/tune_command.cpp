@@ -11,11 +11,13 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
 #include "apps/saca/settings.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/prepare/car_file.h"
 #include "saca/lab/prepare/tuning_file.h"
 #include "saca/lab/prepare/vehicle_file.h"
@@ -77,14 +79,14 @@ Result<std::optional<double>> tune_law(const TuneOptions& options, const std::st
     problem.start.push_back(car.tuning.*law.*number.member);
   }
   SteadyClock clock;
-  ProgressLine line(what, evaluations, clock);
+  long_work::ProgressLine line(what, evaluations, clock, progress_display());
   int remembered = 0;
   const auto found = tune::minimise(
       problem, {evaluations, options.seed}, journal, [&](const tune::Progress& progress) {
         remembered += progress.remembered ? 1 : 0;
         line.show(progress.evaluations, remembered,
                   fmt::format(" evaluations, best {:.4f}", progress.best));
-        return !interrupted();
+        return !long_work::interrupted();
       });
   if (!found.has_value()) {
     return found.error();
@@ -154,11 +156,11 @@ int tune_car(TuneOptions options) {
   if (!start.has_value()) {
     return refused(start.error());
   }
-  if (const auto problem = why_outputs_unwritable({output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({output})) {
     return refused(*problem);
   }
   Car car = start.value();
-  watch_for_interrupt();
+  long_work::watch_for_interrupt();
 
   const fs::path swerve_journal = output.string() + ".swerve.journal";
   const fs::path drift_journal = output.string() + ".drift.journal";
@@ -178,7 +180,7 @@ int tune_car(TuneOptions options) {
     app::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
   }
   const auto domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads,
-                                        [] { return !interrupted(); });
+                                        [] { return !long_work::interrupted(); });
   if (!domain) {
     return stopped(output);
   }
@@ -187,7 +189,7 @@ int tune_car(TuneOptions options) {
   const std::string comment = fmt::format(
       "Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/lab/tune/trials.h).",
       command_line(options), *swerve.value(), *drift.value());
-  if (auto problem = write_output(output, prepare::tuning_text(car.tuning, comment))) {
+  if (auto problem = long_work::write_output(output, prepare::tuning_text(car.tuning, comment))) {
     return refused(*problem);
   }
   fs::remove(swerve_journal);

@@ -14,6 +14,7 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/names.h"
 #include "saca/base/core/units.h"
+#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/prepare/vehicle_file.h"
 #include "saca/lab/tune/fit_car_file.h"
 #include "saca/lab/tune/fit_drive.h"
@@ -139,7 +140,7 @@ int fit_car(const FitOptions& options) {
     names += (names.empty() ? "" : ", ") + fs::path(name).filename().string();
   }
 
-  if (const auto problem = why_outputs_unwritable({options.output})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
   const tune::VehicleFit fit = tune::fit_vehicle(car.value(), options.grip, logs);
@@ -147,7 +148,7 @@ int fit_car(const FitOptions& options) {
   if (!fitted.has_value()) {
     return refuse(fitted.error().message, bad_input);
   }
-  if (const auto problem = write_output(options.output, fitted.value())) {
+  if (const auto problem = long_work::write_output(options.output, fitted.value())) {
     return refuse(problem->message, cannot_write);
   }
   if (options.as_json) {
@@ -178,7 +179,7 @@ int drive_test(const TestDriveOptions& options) {
   drive.kind = options.kind == "brake" ? tune::TestKind::brake : tune::TestKind::steer;
   drive.steering = from_degrees(options.steering_deg);
   const tune::Log log = tune::drive_test(car.value(), drive);
-  if (const auto problem = write_output(options.output, tune::write_log(log))) {
+  if (const auto problem = long_work::write_output(options.output, tune::write_log(log))) {
     return refuse(problem->message, cannot_write);
   }
   app::print("{}: {} of {} rows\n", options.output, name_of(log.kind, tune::kind_names),

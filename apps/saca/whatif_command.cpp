@@ -12,10 +12,13 @@
 #include "apps/saca/moment_option.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/eval/whatif.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 #include "saca/lab/report/map_svg.h"
 
 namespace saca::app {
@@ -65,11 +68,12 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
   std::vector<Cell> cells(num_cells(axes));
   std::vector<std::optional<Error>> problems(cells.size());
   SteadyClock clock;
-  ProgressLine progress("what if", static_cast<int>(cells.size()), clock);
-  watch_for_interrupt();
+  long_work::ProgressLine progress("what if", static_cast<int>(cells.size()), clock,
+                                   progress_display());
+  long_work::watch_for_interrupt();
   constexpr std::size_t at_once = 32;
   for (std::size_t from = 0; from < cells.size(); from += at_once) {
-    if (interrupted()) {
+    if (long_work::interrupted()) {
       return std::optional<std::vector<Cell>>();
     }
     const std::size_t to = std::min(cells.size(), from + at_once);
@@ -244,7 +248,7 @@ int run(const WhatifCommand& options) {
     return nothing_to_decide;
   }
   const double begin = *time.value();
-  if (const auto problem = why_outputs_unwritable({options.svg})) {
+  if (const auto problem = long_work::why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
   const auto cells = try_all(inputs.value(), begin, axes, options.threads);
@@ -255,7 +259,8 @@ int run(const WhatifCommand& options) {
     complain("interrupted; nothing was written");
     return was_interrupted;
   }
-  auto problem = write_output(options.svg, picture(inputs.value(), begin, axes, *cells.value()));
+  auto problem =
+      long_work::write_output(options.svg, picture(inputs.value(), begin, axes, *cells.value()));
   if (problem) {
     return refused(*problem);
   }

@@ -1,19 +1,19 @@
 #pragma once
 
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/saca/places.h"
 #include "saca/base/core/result.h"
 #include "saca/base/formats/json_reader.h"
 #include "saca/base/formats/json_text.h"
 
-namespace saca::app {
+namespace saca::long_work {
 
-/// What one encounter or case gave, as a row of long work (resumable.h).
+/// What one encounter or case gave, as a row of long work (resumable_work.h).
 template <class Item>
 struct ItemsRow {
   std::vector<Item> items;
@@ -56,19 +56,23 @@ template <class Item, class Read>
   return row;
 }
 
-/// The items of all rows, in their order; problems are told on the error stream.
-/// @param num_failed  how many rows have one
+/// What all rows gave.
 template <class Item>
-[[nodiscard]] std::vector<Item> all_items(std::vector<ItemsRow<Item>> rows, int& num_failed) {
-  std::vector<Item> all;
+struct AllItems {
+  std::vector<Item> items;            ///< in the order of the rows
+  std::vector<std::string> problems;  ///< of the rows that have one
+};
+
+template <class Item>
+[[nodiscard]] AllItems<Item> all_items(std::vector<ItemsRow<Item>> rows) {
+  AllItems<Item> all;
   for (ItemsRow<Item>& row : rows) {
     if (!row.problem.empty()) {
-      ++num_failed;
-      complain(row.problem);
+      all.problems.push_back(std::move(row.problem));
     }
-    std::move(row.items.begin(), row.items.end(), std::back_inserter(all));
+    std::move(row.items.begin(), row.items.end(), std::back_inserter(all.items));
   }
   return all;
 }
 
-}  // namespace saca::app
+}  // namespace saca::long_work

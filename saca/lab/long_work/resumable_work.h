@@ -10,13 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "apps/saca/places.h"
-#include "apps/saca/progress.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/journal.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/progress.h"
 
-namespace saca::app {
+namespace saca::long_work {
 
 /// Long work that gives one row after the other, each by itself. What was done stands in a journal,
 /// so that the same command goes on from there after an interrupt.
@@ -27,6 +28,7 @@ struct ResumableWork {
   std::string progress;  ///< what is worked on, for the line of progress
   std::string unit;      ///< what a row is of: "encounters"
   std::size_t count = 0;
+  ProgressDisplay display = ProgressDisplay::shown;
   int threads = 1;  ///< they do not change the rows
   std::function<Row(std::size_t number)> row;
   std::function<std::string(const Row& row)> line_of;
@@ -63,7 +65,7 @@ template <class Row>
   }
   const auto before = static_cast<int>(rows.size());
   SteadyClock clock;
-  ProgressLine progress(work.progress, static_cast<int>(work.count), clock);
+  ProgressLine progress(work.progress, static_cast<int>(work.count), clock, work.display);
   while (rows.size() < work.count) {
     if (interrupted()) {
       return std::optional<std::vector<Row>>();
@@ -89,4 +91,4 @@ template <class Row>
   return std::optional(std::move(rows));
 }
 
-}  // namespace saca::app
+}  // namespace saca::long_work
