@@ -14,7 +14,6 @@
 #include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/learned_danger/disc_for_test.h"
-#include "saca/lab/learned_danger/network.h"
 #include "saca/lab/learned_danger/point_mass.h"
 
 namespace saca::network_training::danger_training_test {
@@ -395,39 +394,6 @@ TEST(DangerTraining, QIsOneLookAndThenWhatVIsOf) {
       }
     }
   }
-}
-
-// What the product works out from the weights is what was trained.
-TEST(DangerTraining, IsTheNetworkThatTheProductRuns) {
-  torch::manual_seed(4);
-  constexpr auto width = static_cast<std::int64_t>(learned_danger::Network::width);
-  DangerNets nets(static_cast<std::int64_t>(learned_danger::num_net_inputs), width);
-  DangerNets pairs(static_cast<std::int64_t>(learned_danger::num_pair_inputs), width);
-  formats::Tensors tensors = tensors_of(nets);
-  pairs->add_to(tensors, "pair_");
-  const auto network = learned_danger::Network::from(tensors, "weights");
-  ASSERT_TRUE(network.has_value()) << network.error().message;
-  ASSERT_TRUE(network.value().knows_pairs());
-  std::array<learned_danger::SeenByNet, 2> seen;
-  seen[0].h = -3.0;
-  seen[0].inputs.fill(0.3F);
-  seen[1].h = -2.5;
-  seen[1].inputs.fill(-0.2F);
-  const manoeuvre::Demand demand{-0.5, 0.2};
-  std::array<double, 1> q{};
-  network.value().joint_values_of(std::span(seen).first(1), {&demand, 1}, q);
-  const torch::NoGradGuard none;
-  const torch::Tensor inputs =
-      torch::full({1, static_cast<std::int64_t>(learned_danger::num_net_inputs)}, 0.3);
-  const torch::Tensor h = torch::full({1}, -3.0);
-  EXPECT_NEAR(network.value().joint_value(std::span(seen).first(1)),
-              nets->v(inputs, h).item<double>(), 1e-4);
-  const torch::Tensor both = torch::cat({inputs, torch::tensor({{-0.5F, 0.2F}})}, 1);
-  EXPECT_NEAR(q[0], torch::maximum(nets->q1(both, h), nets->q2(both, h)).item<double>(), 1e-4);
-
-  const torch::Tensor rows = torch::cat({inputs, torch::full_like(inputs, -0.2)}, 0);
-  const torch::Tensor h_of_both = torch::tensor({-3.0F, -2.5F});
-  EXPECT_NEAR(network.value().joint_value(seen), joint_value(nets, pairs, rows, h_of_both), 1e-4);
 }
 
 TEST(DangerTraining, WantsSomethingToLearnFrom) {
