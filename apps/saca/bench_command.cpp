@@ -48,7 +48,7 @@ void bench_vehicle(const manoeuvre::Car& car, const Clock& clock, json& figures)
     vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, 0.9);
     for (int k = 0; k < num_steps; ++k) {
       const vehicle::Command command =
-          manoeuvre::control(car, plan, scene.road, 0.9, state, memory, vehicle::usual_step);
+          manoeuvre::control(car, scene.road, 0.9, state, memory, vehicle::usual_step);
       state = vehicle::step(car, state, command, 0.9, vehicle::usual_step);
     }
   }
@@ -88,8 +88,8 @@ void bench_atlas(const manoeuvre::Car& car, const atlas::Atlas& atlas,
           const Clock::Time start = clock.now();
           const forecast::Futures all =
               forecast::futures(atlas, scenes[i], tracks[i], harm,
-                                chooses ? std::span<const double>(forecast::target_shares)
-                                        : std::span<const double>(half));
+                                {.shares = chooses ? forecast::BrakingChoices{}.shares
+                                                   : std::span<const double>(half)});
           times.push_back(1e6 * to_seconds(clock.now() - start));
           num_outside += all[0].outside ? 1 : 0;
         }

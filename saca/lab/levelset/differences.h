@@ -95,16 +95,18 @@ struct OneSided<Differences::weno5, N> {
       bend[k] = fma(f * (13.0 / 12.0), f, N(1e-6));
     }
     return {
-        fma(correction(e[0], e[1], e[2], e[3], bend[0], bend[1], bend[2]), scale.sixth, d[2]),
-        fma(correction(-e[4], -e[3], -e[2], -e[1], bend[3], bend[2], bend[1]), scale.sixth, d[3])};
+        fma(correction({e[0], e[1], e[2], e[3]}, {bend[0], bend[1], bend[2]}), scale.sixth, d[2]),
+        fma(correction({-e[4], -e[3], -e[2], -e[1]}, {bend[3], bend[2], bend[1]}), scale.sixth,
+            d[3])};
   }
 
  private:
   static N squared(const N& a) { return a * a; }
 
   /// Six times what is added to the difference next to the cell.
-  static N correction(const N& e0, const N& e1, const N& e2, const N& e3, const N& bend0,
-                      const N& bend1, const N& bend2) {
+  static N correction(const std::array<N, 4>& e, const std::array<N, 3>& bend) {
+    const auto& [e0, e1, e2, e3] = e;
+    const auto& [bend0, bend1, bend2] = bend;
     const N s0 = fma(squared(fma(e1, N(3.0), -e0)), N(0.25), bend0);
     const N s1 = fma(squared(e1 + e2), N(0.25), bend1);
     const N s2 = fma(squared(fma(e2, N(-3.0), e3)), N(0.25), bend2);

@@ -59,9 +59,7 @@ std::array<ValuePicture, 2> pair_of(const AuthorsPage& page, const AuthorsView& 
                   value_map(value, shown_x, shown_y, size.columns, size.rows,
                             {0.0, 0.0, view.course, view.speed}),
                   "Solved: " + page.case_name),
-          picture(page, view,
-                  authors_map(network, shown_x, shown_y, size.columns, size.rows, view.course,
-                              view.speed),
+          picture(page, view, authors_map(network, shown_x, shown_y, size, view),
                   "Published network: " + page.network_name)};
 }
 
@@ -106,7 +104,8 @@ std::string table_of(const verification::AuthorsComparison& comparison) {
 }  // namespace
 
 ValueMap authors_map(const verification::AuthorsNetwork& network, const MapRange& x,
-                     const MapRange& y, int columns, int rows, double yaw, double speed) {
+                     const MapRange& y, const RasterSize& size, const AuthorsView& view) {
+  const auto [columns, rows] = size;
   expects(x.low < x.high && y.low < y.high, "ranges are not empty");
   expects(columns >= 2 && rows >= 2, "at least 2 x 2 rectangles");
   ValueMap map{.x = x, .y = y, .columns = columns, .rows = rows, .values = {}, .inside = {}};
@@ -115,7 +114,7 @@ ValueMap authors_map(const verification::AuthorsNetwork& network, const MapRange
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
       const Vec2 at = map.middle(c, r);
-      states.push_back({at.x, at.y, yaw, speed});
+      states.push_back({at.x, at.y, view.course, view.speed});
     }
   }
   for (const double value : network.values(states)) {

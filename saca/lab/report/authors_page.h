@@ -5,23 +5,25 @@
 
 #include "saca/base/core/result.h"
 #include "saca/lab/report/value_map.h"
+#include "saca/lab/report/value_png.h"
 #include "saca/lab/verification/authors_comparison.h"
 #include "saca/lab/verification/authors_network.h"
 #include "saca/thinking/danger/value_table.h"
 
 namespace saca::report {
 
-/// The network's values over a plane, as `value_map` has a table's.
-/// @return  `inside` is `in_authors_range`
-[[nodiscard]] ValueMap authors_map(const verification::AuthorsNetwork& network, const MapRange& x,
-                                   const MapRange& y, int columns, int rows, double yaw,
-                                   double speed);
-
 /// Where a pair of maps is taken.
 struct AuthorsView {
   double course = 0.0;  ///< [rad]
   double speed = 0.0;   ///< [m/s]
 };
+
+/// The network's values over a plane, as `value_map` has a table's.
+/// @param size  columns and rows, two of each at least
+/// @return      `inside` is `in_authors_range`
+[[nodiscard]] ValueMap authors_map(const verification::AuthorsNetwork& network, const MapRange& x,
+                                   const MapRange& y, const RasterSize& size,
+                                   const AuthorsView& view);
 
 /// One page: a solved value and the published network side by side, and how they agree.
 struct AuthorsPage {

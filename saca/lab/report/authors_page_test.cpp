@@ -43,7 +43,7 @@ danger::ValueAt flat_value() {
 }
 
 TEST(AuthorsMap, HasTheNetworksValuesAtTheMiddlesAndItsRange) {
-  const ValueMap map = authors_map(scaled_x(), {-100.0, 100.0}, {-10.0, 10.0}, 8, 4, 0.1, 5.0);
+  const ValueMap map = authors_map(scaled_x(), {-100.0, 100.0}, {-10.0, 10.0}, {8, 4}, {0.1, 5.0});
   ASSERT_EQ(map.values.size(), 32U);
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
@@ -58,12 +58,12 @@ TEST(AuthorsMap, HasTheNetworksValuesAtTheMiddlesAndItsRange) {
 
 TEST(AuthorsMap, BeyondTheRangeOfYawNothingIsInside) {
   const ValueMap map =
-      authors_map(scaled_x(), {-40.0, -10.0}, {-1.0, 1.0}, 2, 2, from_degrees(41.0), 5.0);
+      authors_map(scaled_x(), {-40.0, -10.0}, {-1.0, 1.0}, {2, 2}, {from_degrees(41.0), 5.0});
   EXPECT_THAT(map.inside, testing::Each(0));
 }
 
 TEST(AuthorsMap, RefusesEmptyRanges) {
-  EXPECT_THROW((void)authors_map(scaled_x(), {1.0, 1.0}, {0.0, 1.0}, 2, 2, 0.0, 1.0),
+  EXPECT_THROW((void)authors_map(scaled_x(), {1.0, 1.0}, {0.0, 1.0}, {2, 2}, {0.0, 1.0}),
                ContractViolation);
 }
 

@@ -83,6 +83,15 @@ Result<std::string> png_bytes(cairo_surface_t* surface) {
 
 enum class Align { left, middle, right };
 
+struct TextStyle {
+  double size = 12.0;  // [px]
+  Rgb rgb = ink;
+  Align align = Align::left;
+  cairo_font_weight_t weight = CAIRO_FONT_WEIGHT_NORMAL;
+  double turned = 0.0;   // [rad]
+  double outline = 0.0;  // width of the letters' outline [px]; 0: filled
+};
+
 /// Cairo with colours and texts as they are needed here.
 class Canvas {
  public:
@@ -107,22 +116,22 @@ class Canvas {
     cairo_line_to(cairo(), to.x, to.y);
     cairo_stroke(cairo());
   }
-  void text(Vec2 at, const std::string& words, double size, const Rgb& rgb, Align align,
-            bool bold = false, double turned = 0.0, double outline = 0.0) const {
-    colour(rgb);
-    cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo(), size);
+  void text(Vec2 at, const std::string& words, const TextStyle& style) const {
+    colour(style.rgb);
+    cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, style.weight);
+    cairo_set_font_size(cairo(), style.size);
     cairo_text_extents_t extents;
     cairo_text_extents(cairo(), words.c_str(), &extents);
-    const double share = align == Align::left ? 0.0 : align == Align::middle ? 0.5 : 1.0;
+    const double share = style.align == Align::left     ? 0.0
+                         : style.align == Align::middle ? 0.5
+                                                        : 1.0;
     cairo_save(cairo());
     cairo_translate(cairo(), at.x, at.y);
-    cairo_rotate(cairo(), turned);
+    cairo_rotate(cairo(), style.turned);
     cairo_move_to(cairo(), -share * extents.x_advance, 0.0);
-    if (outline > 0.0) {
+    if (style.outline > 0.0) {
       cairo_text_path(cairo(), words.c_str());
-      cairo_set_line_width(cairo(), outline);
+      cairo_set_line_width(cairo(), style.outline);
       cairo_stroke(cairo());
     } else {
       cairo_show_text(cairo(), words.c_str());
@@ -215,8 +224,7 @@ void draw_arrow(const Canvas& canvas, const PlotArea& plot, double course) {
   const Vec2 beside = plot.at + Vec2{66.0, 42.0};
   constexpr double text_halo = 3.0;
   for (const double width : {text_halo, 0.0}) {
-    canvas.text(beside, "ego's course", 12.0, width > 0.0 ? paper : ink, Align::left, false, 0.0,
-                width);
+    canvas.text(beside, "ego's course", {.rgb = width > 0.0 ? paper : ink, .outline = width});
   }
 }
 
@@ -230,17 +238,20 @@ void draw_axes(const Canvas& canvas, const PlotArea& plot) {
   for (const double value : round_ticks(plot.x.low, plot.x.high, 9)) {
     const double x = plot.x_px(value);
     canvas.line({x, bottom}, {x, bottom + tick_length}, 1.0, soft);
-    canvas.text({x, bottom + 20.0}, number_words(value), 12.0, ink, Align::middle);
+    canvas.text({x, bottom + 20.0}, number_words(value), {.align = Align::middle});
   }
   for (const double value : round_ticks(plot.y.low, plot.y.high, 8)) {
     const double y = plot.y_px(value);
     canvas.line({plot.at.x - tick_length, y}, {plot.at.x, y}, 1.0, soft);
-    canvas.text({plot.at.x - 9.0, y + 4.0}, number_words(value), 12.0, ink, Align::right);
+    canvas.text({plot.at.x - 9.0, y + 4.0}, number_words(value), {.align = Align::right});
   }
-  canvas.text({plot.at.x + 0.5 * plot.size.width, bottom + 42.0}, axis_words(plot.x), 13.0, ink,
-              Align::middle, true);
-  canvas.text({plot.at.x - 52.0, plot.at.y + 0.5 * plot.size.height}, axis_words(plot.y), 13.0, ink,
-              Align::middle, true, -0.5 * std::numbers::pi);
+  canvas.text({plot.at.x + 0.5 * plot.size.width, bottom + 42.0}, axis_words(plot.x),
+              {.size = 13.0, .align = Align::middle, .weight = CAIRO_FONT_WEIGHT_BOLD});
+  canvas.text({plot.at.x - 52.0, plot.at.y + 0.5 * plot.size.height}, axis_words(plot.y),
+              {.size = 13.0,
+               .align = Align::middle,
+               .weight = CAIRO_FONT_WEIGHT_BOLD,
+               .turned = -0.5 * std::numbers::pi});
 }
 
 /// Both sides of 0 take half of the bar.
@@ -259,11 +270,14 @@ void draw_bar(const Canvas& canvas, const PlotArea& plot, const ValuePicture& pi
     const double value = share >= 0.0 ? share * scale.highest : -share * scale.lowest;
     const double y = at.y + half * (1.0 - share);
     canvas.line({at.x + bar_width, y}, {at.x + bar_width + tick_length, y}, 1.0, soft);
-    canvas.text({at.x + bar_width + 9.0, y + 4.0}, number_words(value), 12.0, ink, Align::left);
+    canvas.text({at.x + bar_width + 9.0, y + 4.0}, number_words(value), {});
   }
   canvas.line({at.x, at.y + half}, {at.x + bar_width, at.y + half}, 2.0, ink);
-  canvas.text({at.x + bar_width + 60.0, at.y + half}, picture.value_words, 13.0, ink, Align::middle,
-              true, 0.5 * std::numbers::pi);
+  canvas.text({at.x + bar_width + 60.0, at.y + half}, picture.value_words,
+              {.size = 13.0,
+               .align = Align::middle,
+               .weight = CAIRO_FONT_WEIGHT_BOLD,
+               .turned = 0.5 * std::numbers::pi});
 }
 
 double top_of_plot(const ValuePicture& picture) {
@@ -283,10 +297,10 @@ void draw_picture(const Canvas& canvas, const ValuePicture& picture) {
                                     .x = picture.x,
                                     .y = picture.y},
                            .map = &picture.map};
-  canvas.text({left_room, 28.0}, picture.title, 18.0, ink, Align::left, true);
+  canvas.text({left_room, 28.0}, picture.title, {.size = 18.0, .weight = CAIRO_FONT_WEIGHT_BOLD});
   double y = 28.0 + text_line;
   for (const std::string& line : picture.lines) {
-    canvas.text({left_room, y}, line, 13.0, soft, Align::left);
+    canvas.text({left_room, y}, line, {.size = 13.0, .rgb = soft});
     y += text_line;
   }
   draw_map(canvas, layout, picture);

@@ -97,8 +97,9 @@ TEST(Traffic, AFollowerDrivesAsItsLawSays) {
   const world::Track track = Traffic(scenario).against(motion_of(X_WB), ego, 8.0).at(0);
   world::Actor driver{.footprint = car, .X_WA = {{-20.0, 0.0}, 0.0}, .v_W = {15.0, 0.0}};
   const drivers::Body body{&ego, &X_WB};
-  const world::Track expected = reacting_track(scenario.road, driver, script.law, {&body, 1}, 0.0,
-                                               8.0, Traffic::step, scenario.grip);
+  const world::Track expected =
+      reacting_track(scenario.road, driver, script.law, {&body, 1},
+                     {.start = 0.0, .duration = 8.0, .step = Traffic::step, .grip = scenario.grip});
   ASSERT_EQ(track.X_WA.size(), expected.X_WA.size());
   for (std::size_t k = 0; k < track.X_WA.size(); ++k) {
     EXPECT_NEAR(track.X_WA[k].p.x, expected.X_WA[k].p.x, 1e-9) << k;

@@ -47,7 +47,7 @@ VehicleState one_millisecond(const manoeuvre::Car& car, VehicleState state,
                              const world::Scene& scene, manoeuvre::ControllerState& memory,
                              int parts) {
   const auto command =
-      manoeuvre::control(car, swerve, scene.road, scene.grip, state, memory, vehicle::usual_step);
+      manoeuvre::control(car, scene.road, scene.grip, state, memory, vehicle::usual_step);
   for (int i = 0; i < parts; ++i) {
     state = vehicle::step(car, state, command, scene.grip, vehicle::usual_step / parts);
   }
@@ -133,7 +133,7 @@ Stop stop_straight(const manoeuvre::Car& car, Abs abs, double speed, double grip
   Stop stop;
   for (int i = 1; i <= most_steps && !vehicle::at_rest(state); ++i) {
     vehicle::Command command =
-        manoeuvre::control(car, plan, scene.road, grip, state, memory, vehicle::usual_step);
+        manoeuvre::control(car, scene.road, grip, state, memory, vehicle::usual_step);
     if (abs == Abs::ideal) {
       command.brake_torque = vehicle::ideal_brakes(car, state, grip);
     }

@@ -4,14 +4,24 @@
 
 namespace saca::collision {
 
-/// The last time at which something is still positive that is so at `before`, but not at `after`:
-/// to `least_time` [s], or until it is less than `enough` there. `value` may bend, not jump.
+/// Two times, and what is between them: positive before, not so after.
+struct Bracket {
+  double before = 0.0;  ///< [s]
+  double high = 0.0;    ///< the value then, > 0
+  double after = 0.0;   ///< [s]
+  double low = 0.0;     ///< the value then, <= 0
+};
+
+/// The last time at which something is still positive that is so at the bracket's beginning, but
+/// not at its end: to `least_time` [s], or until it is less than `enough` there. `value` may bend,
+/// not jump.
 ///
 /// False position; of an end that stays the weight is halved (the Illinois rule), and now and then
 /// the interval is.
 template <class Value>
-[[nodiscard]] double last_positive(double before, double high, double after, double low,
-                                   double least_time, double enough, const Value& value) {
+[[nodiscard]] double last_positive(Bracket bracket, double least_time, double enough,
+                                   const Value& value) {
+  auto& [before, high, after, low] = bracket;
   double high_weight = high;
   double low_weight = low;
   int stays = 0;  // > 0: `after` did, < 0: `before` did

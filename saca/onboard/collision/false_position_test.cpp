@@ -11,7 +11,7 @@ TEST(FalsePosition, FindsTheLastTimeBeforeAZero) {
   const auto check = [](const auto& value, double before, double after, double zero) {
     int calls = 0;
     const double found =
-        last_positive(before, value(before), after, value(after), 1e-9, 0.0, [&](double time) {
+        last_positive({before, value(before), after, value(after)}, 1e-9, 0.0, [&](double time) {
           ++calls;
           return value(time);
         });
@@ -27,7 +27,7 @@ TEST(FalsePosition, FindsTheLastTimeBeforeAZero) {
 
 TEST(FalsePosition, StopsWhereLittleIsLeft) {
   const auto value = [](double t) { return 1.0 - t * t; };
-  const double found = last_positive(0.0, 1.0, 5.0, -24.0, 0.0, 1e-3, value);
+  const double found = last_positive({0.0, 1.0, 5.0, -24.0}, 0.0, 1e-3, value);
   EXPECT_GT(value(found), 0.0);
   EXPECT_LE(value(found), 1e-3);
 }

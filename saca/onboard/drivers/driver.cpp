@@ -235,8 +235,8 @@ Vec2 LaneDriver::velocity() const {
 }
 
 void reacting_track(const world::Road& road, const world::Actor& driver, const DriverLaw& law,
-                    std::span<const Body> others, double start, double duration, double step,
-                    double grip, world::Track& track) {
+                    std::span<const Body> others, const ReactionSpan& span, world::Track& track) {
+  const auto& [start, duration, step, grip] = span;
   expects(duration >= 0.0, "duration >= 0");
   expects(step > 0.0, "step > 0");
   expects(others.size() <= world::max_actors, "at most max_actors others");
@@ -261,10 +261,10 @@ void reacting_track(const world::Road& road, const world::Actor& driver, const D
 }
 
 world::Track reacting_track(const world::Road& road, const world::Actor& driver,
-                            const DriverLaw& law, std::span<const Body> others, double start,
-                            double duration, double step, double grip) {
+                            const DriverLaw& law, std::span<const Body> others,
+                            const ReactionSpan& span) {
   world::Track track;
-  reacting_track(road, driver, law, others, start, duration, step, grip, track);
+  reacting_track(road, driver, law, others, span, track);
   return track;
 }
 

@@ -162,20 +162,24 @@ struct Body {
   const world::Track* track = nullptr;
 };
 
+/// When a reacting driver is followed, and on what.
+struct ReactionSpan {
+  double start = 0.0;     ///< [s]
+  double duration = 0.0;  ///< [s], >= 0
+  double step = 0.0;      ///< of the track [s], > 0
+  double grip = 0.0;      ///< friction coefficient of the road [-], > 0
+};
+
 /// The track of one reacting driver along the lane against what is ahead of it. Causal: up to each
 /// instant it depends on the others up to that instant only.
 ///
-/// @param driver    as it is at `start`
-/// @param others    tracks that begin at `start` or before; at most world::max_actors
-/// @param duration  [s], >= 0
-/// @param step      [s], > 0
-/// @param grip      friction coefficient of the road [-], > 0
+/// @param driver  as it is at the span's start
+/// @param others  tracks that begin at the span's start or before; at most world::max_actors
 [[nodiscard]] world::Track reacting_track(const world::Road& road, const world::Actor& driver,
                                           const DriverLaw& law, std::span<const Body> others,
-                                          double start, double duration, double step, double grip);
+                                          const ReactionSpan& span);
 /// The same, written over `track`: allocates nothing where that has room for its poses.
 void reacting_track(const world::Road& road, const world::Actor& driver, const DriverLaw& law,
-                    std::span<const Body> others, double start, double duration, double step,
-                    double grip, world::Track& track);
+                    std::span<const Body> others, const ReactionSpan& span, world::Track& track);
 
 }  // namespace saca::drivers

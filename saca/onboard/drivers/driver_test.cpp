@@ -247,7 +247,8 @@ world::Actor driver_at(const Pose& X_WA, double speed) {
 }
 
 Track react(const Road& road, const world::Actor& driver, const std::vector<Body>& others) {
-  return reacting_track(road, driver, usual_driver(norm(driver.v_W)), others, 0.0, 15.0, step, dry);
+  return reacting_track(road, driver, usual_driver(norm(driver.v_W)), others,
+                        {.start = 0.0, .duration = 15.0, .step = step, .grip = dry});
 }
 
 TEST(ReactingTrack, StopsBehindAWreck) {

@@ -144,8 +144,8 @@ ContactForecast edge_contact_forecast(const AtlasEgo& ego, collision::Side side,
     if (gap <= 0.0 && !found.contact) {
       found.contact = time > 0.0
                           ? collision::last_positive(
-                                before, edge_clearance_at(ego, side, before), time, gap, 1e-5, 1e-5,
-                                [&](double at) { return edge_clearance_at(ego, side, at); })
+                                {before, edge_clearance_at(ego, side, before), time, gap}, 1e-5,
+                                1e-5, [&](double at) { return edge_clearance_at(ego, side, at); })
                           : time;
     }
     if (gap < found.clearance) {

@@ -13,7 +13,6 @@ namespace saca::forecast {
 namespace {
 
 using atlas::Atlas;
-using atlas::AtlasBounds;
 using atlas::AtlasLimit;
 using manoeuvre::Plan;
 using world::Scene;
@@ -162,16 +161,11 @@ void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> t
 class Judge {
  public:
   Judge(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
-        const collision::HarmModel& harm, const AtlasBounds& bounds,
-        std::span<const SpreadOverTime> spreads) noexcept
-      : atlas_(atlas),
-        scene_(scene),
-        tracks_(tracks),
-        harm_(harm),
-        bounds_(bounds),
-        spreads_(spreads) {
+        const collision::HarmModel& harm, const Uncertainty& uncertainty) noexcept
+      : atlas_(atlas), scene_(scene), tracks_(tracks), harm_(harm), uncertainty_(uncertainty) {
+    const std::size_t num_spreads = uncertainty.spreads.size();
     usable_ = !broken_rule(scene) && tracks_fit(scene, tracks) &&
-              (spreads.empty() || spreads.size() == tracks.size());
+              (num_spreads == 0 || num_spreads == tracks.size());
     for (std::size_t i = 0; usable_ && i < tracks.size(); ++i) {
       samples_[i] =
           pose_samples_of(tracks[i], scene.actors[i].footprint, scene.time, scene.ego.X_WB.p);
@@ -180,14 +174,15 @@ class Judge {
 
   [[nodiscard]] Future future(const Plan& plan) const noexcept {
     Future future{.plan = plan};
-    future.outside =
-        usable_ ? atlas_.outside(plan, scene_, bounds_) : std::optional(AtlasLimit::no_number);
+    future.outside = usable_ ? atlas_.outside(plan, scene_, uncertainty_.bounds)
+                             : std::optional(AtlasLimit::no_number);
     if (future.outside) {
       return future;
     }
     const atlas::AtlasPath path = atlas_.path(plan, scene_);
     const AtlasEgo ego(path, scene_);
-    judge(chances_of(ego, tracks_, std::span(samples_).first(tracks_.size()), spreads_, future),
+    judge(chances_of(ego, tracks_, std::span(samples_).first(tracks_.size()), uncertainty_.spreads,
+                     future),
           ego, tracks_, harm_, future);
     future.end_time = scene_.time + path.end;
     return future;
@@ -198,8 +193,7 @@ class Judge {
   const Scene& scene_;
   std::span<const Track> tracks_;
   const collision::HarmModel& harm_;
-  const AtlasBounds& bounds_;
-  std::span<const SpreadOverTime> spreads_;
+  const Uncertainty& uncertainty_;
   bool usable_ = false;
   std::array<PoseSamples, world::max_actors> samples_;
 };
@@ -208,8 +202,8 @@ class Judge {
 
 Future future(const Atlas& atlas, const Plan& plan, const Scene& scene,
               std::span<const Track> tracks, const collision::HarmModel& harm,
-              const AtlasBounds& bounds, std::span<const SpreadOverTime> spreads) noexcept {
-  return Judge(atlas, scene, tracks, harm, bounds, spreads).future(plan);
+              const Uncertainty& uncertainty) noexcept {
+  return Judge(atlas, scene, tracks, harm, uncertainty).future(plan);
 }
 
 bool better(const Future& a, const Future& b) noexcept {
@@ -226,10 +220,9 @@ bool better(const Future& a, const Future& b) noexcept {
 }
 
 Futures futures(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
-                const collision::HarmModel& harm, std::span<const double> shares,
-                std::span<const double> strengths, const AtlasBounds& bounds,
-                std::span<const SpreadOverTime> spreads) noexcept {
-  const Judge judge(atlas, scene, tracks, harm, bounds, spreads);
+                const collision::HarmModel& harm, const BrakingChoices& choices,
+                const Uncertainty& uncertainty) noexcept {
+  const Judge judge(atlas, scene, tracks, harm, uncertainty);
   Futures all;
   const auto try_also = [&](const Plan& plan) {
     Future& best = all[manoeuvre::index(plan.policy)];
@@ -248,11 +241,11 @@ Futures futures(const Atlas& atlas, const Scene& scene, std::span<const Track> t
     }
     best = {.plan = manoeuvre::default_plan(policy, scene.ego.v_B.x),
             .outside = AtlasLimit::target_speed};
-    for (const double share : shares) {
+    for (const double share : choices.shares) {
       try_also({policy, share * scene.ego.v_B.x});
     }
   }
-  for (const double strength : strengths) {
+  for (const double strength : choices.strengths) {
     try_also({.policy = manoeuvre::PolicyId::aeb, .strength = strength});
   }
   return all;

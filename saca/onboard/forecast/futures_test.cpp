@@ -137,7 +137,7 @@ ToldAndDrawn told_and_drawn(world::Spread sd, int num_stages) {
     for (const PolicyId policy : all_policies) {
       const auto plan = atlas_plan(policy, stage.scene.ego.v_B.x);
       const Future told =
-          future(small_atlas(), plan, stage.scene, stage.tracks, harm(), {}, spreads);
+          future(small_atlas(), plan, stage.scene, stage.tracks, harm(), {.spreads = spreads});
       if (told.contact || told.probability < 0.05) {
         continue;
       }
@@ -188,8 +188,10 @@ TEST(Futures, DoNotDependOnTheWorldsFrame) {
         pose = X_VW * pose;
       }
     }
-    const Futures a = futures(small_atlas(), stage.scene, stage.tracks, harm(), std::array{0.5});
-    const Futures b = futures(small_atlas(), turned.scene, turned.tracks, harm(), std::array{0.5});
+    const Futures a =
+        futures(small_atlas(), stage.scene, stage.tracks, harm(), {.shares = std::array{0.5}});
+    const Futures b =
+        futures(small_atlas(), turned.scene, turned.tracks, harm(), {.shares = std::array{0.5}});
     for (std::size_t p = 0; p < a.size(); ++p) {
       ASSERT_EQ(a[p].contact.has_value(), b[p].contact.has_value());
       EXPECT_NEAR(a[p].harm, b[p].harm, 1e-3 * (1.0 + a[p].harm));
@@ -220,9 +222,10 @@ TEST(Futures, TheMirrorSwapsLeftAndRight) {
         pose = {{pose.p.x, -pose.p.y}, -pose.yaw};
       }
     }
-    const Futures a = futures(small_atlas(), stage.scene, stage.tracks, harm(), std::array{0.5});
-    const Futures b =
-        futures(small_atlas(), mirrored.scene, mirrored.tracks, harm(), std::array{0.5});
+    const Futures a =
+        futures(small_atlas(), stage.scene, stage.tracks, harm(), {.shares = std::array{0.5}});
+    const Futures b = futures(small_atlas(), mirrored.scene, mirrored.tracks, harm(),
+                              {.shares = std::array{0.5}});
     constexpr std::array<std::size_t, 8> mirror{0, 2, 1, 4, 3, 6, 5, 7};
     for (std::size_t p = 0; p < a.size(); ++p) {
       const Future& other = b[mirror[p]];
@@ -263,8 +266,8 @@ TEST(Futures, TakeTheTargetSpeedThatHarmsLeast) {
   std::mt19937_64 rng(12);
   for (int i = 0; i < 10; ++i) {
     const Staged stage = random_stage(rng);
-    const Futures all =
-        futures(small_atlas(), stage.scene, stage.tracks, harm(), std::array{0.5, 0.0, 0.4});
+    const Futures all = futures(small_atlas(), stage.scene, stage.tracks, harm(),
+                                {.shares = std::array{0.5, 0.0, 0.4}});
     for (const PolicyId policy : {PolicyId::es_b_left, PolicyId::es_b_right}) {
       const Future& best = all[manoeuvre::index(policy)];
       for (const double share : {0.5, 0.0, 0.4}) {
@@ -292,7 +295,7 @@ TEST(Futures, BrakeByTheStrengthThatHarmsLeast) {
       EXPECT_TRUE(strength <= strength_of(best.plan) || better(best, one)) << strength;
     }
     const Futures published =
-        futures(small_atlas(), stage.scene, stage.tracks, harm(), target_shares, {});
+        futures(small_atlas(), stage.scene, stage.tracks, harm(), {.strengths = {}});
     EXPECT_EQ(published[0].plan, manoeuvre::full_braking);
   }
 }

@@ -144,7 +144,7 @@ Window Pair::window(double until, const Matters& matters) const noexcept {
 
 // Between a time apart and one where they touch, and the gaps there.
 double Pair::touch_between(double apart, double high, double touching, double low) const noexcept {
-  return collision::last_positive(apart, high - near_touch, touching, low - near_touch, 1e-6,
+  return collision::last_positive({apart, high - near_touch, touching, low - near_touch}, 1e-6,
                                   near_touch,
                                   [&](double time) { return both_.gap_at(time) - near_touch; });
 }

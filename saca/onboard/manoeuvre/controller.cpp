@@ -77,11 +77,11 @@ double slowest_speed(const Car& car, const Plan& plan, double speed, double grip
   return std::max({plan.target_speed.value_or(0.0), speed - left_over, 0.6 * speed});
 }
 
-Command drift(const Car& car, const Plan& plan, const world::Road& road, double grip,
-              const VehicleState& state, double dt, ControllerState& memory) {
+Command drift(const Car& car, const world::Road& road, double grip, const VehicleState& state,
+              double dt, ControllerState& memory) {
   const DriftMotion motion{world::to_lane(road, state.X_WB).heading, state.v_B, state.yaw_rate,
                            state.a_B};
-  const auto law = side(plan.policy) > 0 ? drift_left : drift_right;
+  const auto law = side(memory.plan.policy) > 0 ? drift_left : drift_right;
   return law(car, car.tuning.drift, grip, motion, dt, memory.drift);
 }
 
@@ -97,6 +97,7 @@ ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scen
   const world::EgoState& ego = scene.ego;
   const PathPoint start = path_point(car, scene.road, ego.X_WB, ego.v_B, ego.yaw_rate);
   ControllerState memory;
+  memory.plan = plan;
   memory.speed = ego.v_B.x;
   memory.abs = vehicle::begin_abs(ego.v_B.x);
   memory.drift.yaw_rate = side(plan.policy) * ego.yaw_rate;
@@ -122,24 +123,27 @@ ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scen
   return memory;
 }
 
-Command control(const Car& car, const Plan& plan, const world::Road& road, double grip,
-                const VehicleState& state, ControllerState& memory, double dt) noexcept {
-  Command command;
+Command control(const Car& car, const world::Road& road, double grip, const VehicleState& state,
+                ControllerState& memory, double dt) noexcept {
   if (!is_finite(state, grip)) {
+    Command command;
     command.brake_torque.fill(car.brake_limit);
     return command;
   }
-  if (drifts(plan.policy)) {
+  if (drifts(memory.plan.policy)) {
     memory.time += dt;
-    return drift(car, plan, road, grip, state, dt, memory);
+    return drift(car, road, grip, state, dt, memory);
   }
   const PathPoint point = path_point(car, road, state.X_WB, state.v_B, state.yaw_rate);
-  equations::follow_path(car, wants(plan), road.curvature, grip, state, point, dt, memory, command);
+  const Command command = equations::follow_path<double, Command>(
+      car, wants(memory.plan), equations::PathConditions<double>{road.curvature, grip, dt}, state,
+      point, memory);
   memory.time += dt;
   return command;
 }
 
-bool finished(const Plan& plan, const VehicleState& state, const ControllerState& memory) noexcept {
+bool finished(const VehicleState& state, const ControllerState& memory) noexcept {
+  const Plan& plan = memory.plan;
   constexpr double sure = 0.2;  // [s]
   if (plan.policy == PolicyId::no_intervention) {
     return false;

@@ -15,6 +15,7 @@ namespace saca::manoeuvre {
 
 /// What a controller remembers between two calls. Set to `begin(...)` when the manoeuvre starts.
 struct ControllerState {
+  Plan plan;           ///< what is driven
   LaneShift shift;     ///< of the controlled point, which lies ahead of the centre of mass
   double end_d = 0.0;  ///< lane offset where the shift ends [m]
   double time = 0.0;   ///< since the start [s]
@@ -43,15 +44,15 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
 ///
 /// Source of the point: K. Kritayakirana, J. C. Gerdes, Using the centre of percussion to design a
 /// steering controller for an autonomous race car, Vehicle System Dynamics 50 (2012).
-[[nodiscard]] vehicle::Command control(const Car& car, const Plan& plan, const world::Road& road,
-                                       double grip, const vehicle::VehicleState& state,
-                                       ControllerState& memory, double dt) noexcept;
+[[nodiscard]] vehicle::Command control(const Car& car, const world::Road& road, double grip,
+                                       const vehicle::VehicleState& state, ControllerState& memory,
+                                       double dt) noexcept;
 
 /// Whether the manoeuvre has reached its safe end: at rest for 0, 5 and 6 (3, 4 with target 0);
 /// for the others with a lane change: lane offset within 0.2 m, direction within 2 degrees and
 /// speed within 1 m/s of the wanted ones for 0.2 s, from where `control` keeps the lane at that
 /// speed. No intervention never ends.
-[[nodiscard]] bool finished(const Plan& plan, const vehicle::VehicleState& state,
+[[nodiscard]] bool finished(const vehicle::VehicleState& state,
                             const ControllerState& memory) noexcept;
 
 }  // namespace saca::manoeuvre

@@ -32,14 +32,14 @@ TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {
     bool ended = false;
     const std::size_t before = num_allocations;
     for (int i = 0; i < 500; ++i) {
-      state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.9, state, memory, dt),
-                            0.9, dt);
-      ended = ended || finished(plan, state, memory);
+      state =
+          vehicle::step(car_, state, control(car_, scene.road, 0.9, state, memory, dt), 0.9, dt);
+      ended = ended || finished(state, memory);
     }
     EXPECT_EQ(num_allocations - before, 0U);
     EXPECT_FALSE(ended);
   }
-  static_assert(noexcept(control(car_, Plan{}, scene.road, 0.9, vehicle::VehicleState{},
+  static_assert(noexcept(control(car_, scene.road, 0.9, vehicle::VehicleState{},
                                  std::declval<ControllerState&>(), dt)));
 }
 
@@ -51,8 +51,7 @@ TEST_F(Controller, StepByStepIsDrive) {
   ControllerState memory = begin(car_, plan, scene);
   vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.6);
   for (int i = 0; i < 1000; ++i) {
-    state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.6, state, memory, dt), 0.6,
-                          dt);
+    state = vehicle::step(car_, state, control(car_, scene.road, 0.6, state, memory, dt), 0.6, dt);
   }
   EXPECT_EQ(state.X_WB.p.x, motion.track.X_WA.back().p.x);
   EXPECT_EQ(state.X_WB.yaw, motion.track.X_WA.back().yaw);
@@ -64,10 +63,9 @@ TEST_F(Controller, KeepsTheNewLaneAfterItsEnd) {
   ControllerState memory = begin(car_, plan, scene);
   vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
   for (int i = 0; i < 8000; ++i) {
-    state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.9, state, memory, dt), 0.9,
-                          dt);
+    state = vehicle::step(car_, state, control(car_, scene.road, 0.9, state, memory, dt), 0.9, dt);
   }
-  EXPECT_TRUE(finished(plan, state, memory));
+  EXPECT_TRUE(finished(state, memory));
   EXPECT_NEAR(state.X_WB.p.y, 3.5, 0.02);
   EXPECT_NEAR(state.X_WB.yaw, 0.0, 1e-3);
   EXPECT_NEAR(state.v_B.x, 14.0, 0.1);
@@ -83,8 +81,7 @@ TEST_F(Controller, UsesTheCircleWithoutLeavingIt) {
   double most = 0.0;
   double deepest_slip = 0.0;
   for (int i = 0; i < 2500; ++i) {
-    state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.8, state, memory, dt), 0.8,
-                          dt);
+    state = vehicle::step(car_, state, control(car_, scene.road, 0.8, state, memory, dt), 0.8, dt);
     most = std::max(most, norm(state.a_B) / (0.8 * vehicle::gravity));
     for (const vehicle::WheelContact& wheel : vehicle::contacts(car_, state, 0.8)) {
       EXPECT_LE(norm(wheel.F_T), wheel.peak_force * (1.0 + 1e-12));
@@ -103,7 +100,7 @@ TEST_F(Controller, BrakesHardAndStraightWhenItsSensorsFail) {
   ControllerState memory = begin(car_, plan, scene);
   vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
   state.v_B.y = std::numeric_limits<double>::quiet_NaN();
-  const vehicle::Command command = control(car_, plan, scene.road, 0.9, state, memory, dt);
+  const vehicle::Command command = control(car_, scene.road, 0.9, state, memory, dt);
   EXPECT_EQ(command.steering, 0.0);
   EXPECT_EQ(command.motor_torque, 0.0);
   EXPECT_GT(command.brake_torque[vehicle::rear_left], 0.0);

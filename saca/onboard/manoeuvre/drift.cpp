@@ -11,11 +11,9 @@ using vehicle::Vehicle;
 
 Command drift_left(const Vehicle& car, const DriftLaw& law, double grip, const DriftMotion& motion,
                    double dt, DriftState& memory) noexcept {
-  Command command;
   const equations::Drifting<double> drifting{motion.heading,  motion.v_B.x, motion.v_B.y,
                                              motion.yaw_rate, motion.a_B.x, motion.a_B.y};
-  equations::drift(car, law, grip, drifting, dt, memory, command);
-  return command;
+  return equations::drift<double, Command>(car, law, grip, drifting, dt, memory);
 }
 
 Command drift_right(const Vehicle& car, const DriftLaw& law, double grip, const DriftMotion& motion,

@@ -227,12 +227,21 @@ inline void begin_abs_where(const Mask& mask, const T& speed, Abs& abs) {
   }
 }
 
+// What steering leaves to the brakes.
+template <class T>
+struct BrakingConditions {
+  T grip;      // friction coefficient [-]
+  T sideways;  // acceleration across that the path takes [m/s^2]
+  double dt;   // since the last command [s]
+};
+
 // Brakes or motor: what the plan wants of the speed, with what steering leaves.
 template <class T, class Mask, bool may_brake, class Car, class State, class ControllerMemory,
           class Command>
-inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants, const T& grip,
-                          const State& state, const T& sideways, double dt,
+inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants,
+                          const BrakingConditions<T>& here, const State& state,
                           ControllerMemory& memory, Command& command) {
+  const T& grip = here.grip;
   if constexpr (!may_brake) {
     command.motor_torque = holding_torque<T>(car, state, memory.speed, grip);
     return;
@@ -241,7 +250,7 @@ inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants
   const Mask stop = stops(wants, memory);
   // Where a bend needs all the grip, only less speed helps: a stop always brakes.
   const T share = select(wants.rest, T(1.0), combined_share);
-  const T left_over = deceleration_left<T>(share, grip, sideways);
+  const T left_over = deceleration_left<T>(share, grip, here.sideways);
   const T slowing = min(left_over, (state.v_B.x - memory.speed) / approach);
   const T stopping =
       min(max(left_over, least_stop_share * grip * gravity), wants.strength * grip * gravity);
@@ -250,7 +259,7 @@ inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants
   const Mask brakes = stop || wanted > 0.0;
   if (any(brakes)) {
     const Wheelwise<T> torque =
-        vehicle::equations::deployed_brakes<T>(car, state, wanted, grip, dt, memory.abs);
+        vehicle::equations::deployed_brakes<T>(car, state, wanted, grip, here.dt, memory.abs);
     for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
       command.brake_torque[i] = select(brakes, torque[i], 0.0);
     }
@@ -275,13 +284,23 @@ inline void watch_recovery(const Car& car, const Wants<T, Mask, may_brake>& want
   memory.recovered_for = select(recovered, memory.recovered_for + dt, 0.0);
 }
 
+// What there is beside the car's own motion when a path is followed.
+template <class T>
+struct PathConditions {
+  T curvature;  // of the lane [1/m]
+  T grip;       // friction coefficient [-]
+  double dt;    // since the last command [s]
+};
+
 // What to tell a car that follows a path.
-template <class T, class Mask, bool may_brake, class Car, class State, class ControllerMemory,
-          class Command>
-inline void follow_path(const Car& car, const Wants<T, Mask, may_brake>& wants, const T& curvature,
-                        const T& grip, const State& state, const PathPoint<T>& point, double dt,
-                        ControllerMemory& memory, Command& command) {
-  const T demand = sideways_demand<T>(car, curvature, state, memory, point);
+template <class T, class Command, class Mask, bool may_brake, class Car, class State,
+          class ControllerMemory>
+inline Command follow_path(const Car& car, const Wants<T, Mask, may_brake>& wants,
+                           const PathConditions<T>& here, const State& state,
+                           const PathPoint<T>& point, ControllerMemory& memory) {
+  Command command;
+  const T& grip = here.grip;
+  const T demand = sideways_demand<T>(car, here.curvature, state, memory, point);
   const T most = grip * gravity;
   const T sideways = min(max(abs(demand), abs(state.a_B.y)), most);
   const T speed = hypot(state.v_B.x, state.v_B.y);
@@ -290,9 +309,11 @@ inline void follow_path(const Car& car, const Wants<T, Mask, may_brake>& wants, 
     const T angle = steering_angle<T>(car, state, grip, clamp(demand, -most, most));
     command.steering = select(moves, angle * min(1.0, speed / crawl), 0.0);
   }
-  command_speed<T>(car, wants, grip, state, select(speed > crawl, sideways, 0.0), dt, memory,
-                   command);
-  watch_recovery<T>(car, wants, point, state, dt, memory);
+  command_speed<T>(car, wants,
+                   BrakingConditions<T>{grip, T(select(speed > crawl, sideways, 0.0)), here.dt},
+                   state, memory, command);
+  watch_recovery<T>(car, wants, point, state, here.dt, memory);
+  return command;
 }
 
 // What is known of a car's motion, as `DriftMotion`.
@@ -341,9 +362,10 @@ inline double smoothing_share(const DriftState& /*memory*/, double dt, double ti
 }
 
 // The drift to the left.
-template <class T, class Car, class Law, class ControllerMemory, class Command>
-inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<T>& motion,
-                  double dt, ControllerMemory& memory, Command& command) {
+template <class T, class Command, class Car, class Law, class ControllerMemory>
+inline Command drift(const Car& car, const Law& law, const T& grip, const Drifting<T>& motion,
+                     double dt, ControllerMemory& memory) {
+  Command command;
   constexpr double smoothing = 0.02;    // [s]
   constexpr double over_brake = 1.6;    // of what a wheel can take: it locks
   constexpr double least_load = 500.0;  // [N] that a lifted wheel is braked for
@@ -371,6 +393,7 @@ inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<
                over_brake * share[i] * grip * max(loads[i], least_load) * car.wheel_radius);
   }
   command.motor_torque = select(locks, 0.0, drift_motor<T>(car, law, grip, speed, motion.vx, in));
+  return command;
 }
 
 }  // namespace saca::manoeuvre::equations

@@ -9,9 +9,8 @@ namespace saca::manoeuvre {
 Execution::Execution(const Car& car, const Plan& plan, const world::Scene& scene)
     : car_(&car),
       refused_(why_refused(car, plan, scene)),
-      plan_(refused_ ? full_braking : plan),
       road_(scene.road),
-      controller_(begin(car, plan_, scene)) {}
+      controller_(begin(car, refused_ ? full_braking : plan, scene)) {}
 
 vehicle::Command Execution::control(const vehicle::VehicleState& state, double grip,
                                     double dt) noexcept {
@@ -19,9 +18,8 @@ vehicle::Command Execution::control(const vehicle::VehicleState& state, double g
     controller_.abs = vehicle::begin_abs(state.v_B.x);
     controls_ = true;
   }
-  const vehicle::Command command =
-      manoeuvre::control(*car_, plan_, road_, grip, state, controller_, dt);
-  finished_ = finished_ || manoeuvre::finished(plan_, state, controller_);
+  const vehicle::Command command = manoeuvre::control(*car_, road_, grip, state, controller_, dt);
+  finished_ = finished_ || manoeuvre::finished(state, controller_);
   return command;
 }
 

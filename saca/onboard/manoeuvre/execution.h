@@ -23,7 +23,7 @@ class Execution {
   Execution(const Car& car, const Plan& plan, const world::Scene& scene);
 
   /// What is carried out.
-  [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
+  [[nodiscard]] const Plan& plan() const noexcept { return controller_.plan; }
   /// Why the plan that was asked for is not; nullopt: it is.
   [[nodiscard]] const std::optional<Refusal>& refused() const noexcept { return refused_; }
 
@@ -40,7 +40,6 @@ class Execution {
  private:
   const Car* car_;
   std::optional<Refusal> refused_;
-  Plan plan_;
   world::Road road_;  ///< where the plan began
   ControllerState controller_;
   bool controls_ = false;  ///< `control` has been called with a speed

@@ -24,7 +24,7 @@ Ride::Ride(const Car& car, const Plan& plan, const world::Scene& scene, double g
 }
 
 void Ride::step() {
-  command_ = control(car_, plan_, road_, known_grip_, state_, memory_, vehicle::usual_step);
+  command_ = control(car_, road_, known_grip_, state_, memory_, vehicle::usual_step);
   state_ = vehicle::step(real_, state_, command_, grip_, vehicle::usual_step);
 }
 

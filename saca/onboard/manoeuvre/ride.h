@@ -22,7 +22,7 @@ class Ride {
   /// Asks the controller and goes on by `vehicle::usual_step`. Allocates nothing.
   void step();
 
-  [[nodiscard]] bool ended() const { return finished(plan_, state_, memory_); }
+  [[nodiscard]] bool ended() const { return finished(state_, memory_); }
   [[nodiscard]] const vehicle::VehicleState& state() const { return state_; }
   /// The car as it is, not as its controller takes it to be; the road's true friction coefficient.
   [[nodiscard]] const vehicle::Vehicle& real() const { return real_; }

@@ -177,8 +177,8 @@ Stop emergency_stop(const Car& car, double speed, const vehicle::PerWheel& grip,
   ControllerState memory = begin(car, plan, scene);
   VehicleState state = rolling_state(car, scene.ego, estimate);
   Stop stop;
-  for (int i = 0; i < 15'000 && !finished(plan, state, memory); ++i) {
-    const vehicle::Command command = control(car, plan, scene.road, estimate, state, memory, dt);
+  for (int i = 0; i < 15'000 && !finished(state, memory); ++i) {
+    const vehicle::Command command = control(car, scene.road, estimate, state, memory, dt);
     state = vehicle::step(car, state, command, grip, dt);
     stop.most_heading = std::max(stop.most_heading, std::abs(state.X_WB.yaw));
     stop.most_d = std::max(stop.most_d, std::abs(state.X_WB.p.y));

@@ -16,9 +16,13 @@ using world::Track;
 
 constexpr double usual_step = 0.02;  // [s]
 
+drivers::ReactionSpan span_until(const Scene& scene, double until, double step) {
+  return {scene.time, std::max(0.0, until - scene.time), step, scene.grip};
+}
+
 /// @param seen  whom it looks at beside the ego
 void let_one_react(const Scene& scene, std::size_t follower, const Followers& seen,
-                   const Track& X_WB, double until, double step, std::span<Track> tracks) {
+                   const Track& X_WB, const drivers::ReactionSpan& span, std::span<Track> tracks) {
   const Actor& actor = scene.actors[follower];
   StaticVector<drivers::Body, world::max_actors> others;
   std::array<drivers::Present, world::max_actors> now;
@@ -30,9 +34,9 @@ void let_one_react(const Scene& scene, std::size_t follower, const Followers& se
     now[others.size()] = drivers::present(scene.road, other.footprint, other.X_WA, other.v_W);
     others.push_back({&other.footprint, &tracks[i]});
   }
-  const drivers::DriverLaw law = content_follower(scene, actor, {now.data(), others.size()}, step);
-  reacting_track(scene.road, actor, law, {others.begin(), others.end()}, scene.time,
-                 std::max(0.0, until - scene.time), step, scene.grip, tracks[follower]);
+  const drivers::DriverLaw law =
+      content_follower(scene, actor, {now.data(), others.size()}, span.step);
+  reacting_track(scene.road, actor, law, {others.begin(), others.end()}, span, tracks[follower]);
 }
 
 }  // namespace
@@ -66,9 +70,10 @@ drivers::DriverLaw content_follower(const Scene& scene, const Actor& actor,
 void let_react(const Scene& scene, const Followers& followers, const Track& X_WB, double until,
                double step, std::span<Track> tracks) {
   expects(tracks.size() == scene.actors.size(), "one track per actor");
+  const drivers::ReactionSpan span = span_until(scene, until, step);
   Followers before;
   for (const std::size_t follower : followers) {
-    let_one_react(scene, follower, before, X_WB, until, step, tracks);
+    let_one_react(scene, follower, before, X_WB, span, tracks);
     before.push_back(follower);
   }
 }
@@ -94,7 +99,8 @@ collision::Others with_reacting_followers(const Scene& scene, std::vector<Track>
           others.push_back(i);
         }
       }
-      let_one_react(scene, follower, others, ego.track, until, usual_step, moved);
+      let_one_react(scene, follower, others, ego.track, span_until(scene, until, usual_step),
+                    moved);
     }
     return moved;
   };

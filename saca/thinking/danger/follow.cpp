@@ -126,8 +126,8 @@ Steering by_look_ahead(const Avoidance& system, std::function<double(const State
 }
 
 EvasionPath follow(const Avoidance& system, const std::function<double(const State&)>& intrusion,
-                   double reach, const Steering& steering, const State& start, double step,
-                   double longest) {
+                   const Steering& steering, const State& start, const FollowSettings& settings) {
+  const auto [reach, step, longest] = settings;
   expects(reach > 0.0, "reach > 0");
   expects(step > 0.0, "step > 0");
   expects(longest > 0.0, "longest > 0");

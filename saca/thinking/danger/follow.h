@@ -32,6 +32,13 @@ using Steering = std::function<Acceleration(const State&)>;
 [[nodiscard]] State driven(const Avoidance& system, const State& state, Acceleration input,
                            double duration);
 
+/// How finely and how long a path is followed.
+struct FollowSettings {
+  double reach = 0.0;    ///< of the ego's outermost point from its centre of mass [m], > 0
+  double step = 0.0;     ///< for which each input is held [s], > 0
+  double longest = 0.0;  ///< [s], > 0
+};
+
 struct EvasionPath {
   double highest = 0.0;   ///< intrusion met on the way [m]; h >= 0: the obstacle was hit
   double duration = 0.0;  ///< [s]
@@ -44,15 +51,11 @@ struct EvasionPath {
 /// What comes later does not count once the ego is apart from the obstacle and would only get
 /// farther from it by going straight on: the distance of convex shapes that do not turn has one
 /// lowest point in time. Likewise at rest, beside an obstacle at rest.
-/// @param intrusion  h at a state [m]; falls and rises by at most 1 per metre of the ego's
-/// outermost
-///                   point's way
-/// @param reach      of the ego's outermost point from its centre of mass [m], > 0
-/// @param step       for which each input is held [s], > 0
-/// @param longest    [s], > 0
+/// @param intrusion  h at a state [m]; falls and rises by at most 1 per metre that the ego's
+///                   outermost point makes
 [[nodiscard]] EvasionPath follow(const Avoidance& system,
-                                 const std::function<double(const State&)>& intrusion, double reach,
-                                 const Steering& steering, const State& start, double step,
-                                 double longest);
+                                 const std::function<double(const State&)>& intrusion,
+                                 const Steering& steering, const State& start,
+                                 const FollowSettings& settings);
 
 }  // namespace saca::danger

@@ -81,7 +81,7 @@ struct Promise {
 /// then what other views ahead, and all-out inputs held, lead to counts if it is better.
 EvasionPath best_drive(const Promise& promise, const State& state, bool should_miss) {
   const auto drive = [&](const Steering& steering) {
-    return follow(promise.system, promise.h, promise.reach, steering, state, 0.1, 12.0);
+    return follow(promise.system, promise.h, steering, state, {promise.reach, 0.1, 12.0});
   };
   const auto look = [&](const State& at) { return promise.look(at).value; };
   EvasionPath best = drive(by_look_ahead(promise.system, look, 0.2));

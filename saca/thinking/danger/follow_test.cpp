@@ -91,7 +91,7 @@ TEST(Follow, DoesWhatAKnownValueSays) {
     const State start{0.0, in(-12.0, -1.0), std::atan2(onto, along), std::hypot(along, onto)};
     const double expected = value_at_edge(start);
     for (const Steering& steering : {by_slopes, by_look}) {
-      const EvasionPath way = follow(car, over_the_edge, 1.0, steering, start, 0.02, 10.0);
+      const EvasionPath way = follow(car, over_the_edge, steering, start, {1.0, 0.02, 10.0});
       EXPECT_GE(way.highest, expected - 1e-4) << i;  // none is better; 10 ms between looks
       EXPECT_LE(way.highest, expected + 0.05) << i;  // 48 directions, steps of 20 ms
       EXPECT_TRUE(way.is_settled || way.highest > 0.0) << i;
@@ -104,7 +104,7 @@ TEST(Follow, LooksBetweenItsSteps) {
   const Steering coast = [](const State&) { return Acceleration{}; };
   const auto disc = [](const State& state) { return 2.0 - std::hypot(state[0], state[1]); };
   // Passes the disc's centre at 1 m, in steps of 6 m.
-  const EvasionPath way = follow(car, disc, 1.0, coast, {-20.0, 1.0, 0.0, 20.0}, 0.3, 5.0);
+  const EvasionPath way = follow(car, disc, coast, {-20.0, 1.0, 0.0, 20.0}, {1.0, 0.3, 5.0});
   EXPECT_NEAR(way.highest, 1.0, 0.01);
   EXPECT_TRUE(way.is_settled);
   EXPECT_LT(way.duration, 2.0);
@@ -112,9 +112,9 @@ TEST(Follow, LooksBetweenItsSteps) {
 
 TEST(Follow, RefusesWhatIsNoDrive) {
   const Steering coast = [](const State&) { return Acceleration{}; };
-  EXPECT_THROW((void)follow(car, over_the_edge, 0.0, coast, {}, 0.1, 1.0), ContractViolation);
-  EXPECT_THROW((void)follow(car, over_the_edge, 1.0, coast, {}, 0.0, 1.0), ContractViolation);
-  EXPECT_THROW((void)follow(car, over_the_edge, 1.0, coast, {}, 0.1, 0.0), ContractViolation);
+  EXPECT_THROW((void)follow(car, over_the_edge, coast, {}, {0.0, 0.1, 1.0}), ContractViolation);
+  EXPECT_THROW((void)follow(car, over_the_edge, coast, {}, {1.0, 0.0, 1.0}), ContractViolation);
+  EXPECT_THROW((void)follow(car, over_the_edge, coast, {}, {1.0, 0.1, 0.0}), ContractViolation);
   EXPECT_THROW((void)by_look_ahead(car, over_the_edge, 0.0), ContractViolation);
   EXPECT_THROW((void)driven(car, {}, {}, -1.0), ContractViolation);
 }

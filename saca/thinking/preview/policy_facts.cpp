@@ -56,7 +56,8 @@ class FollowedFutures {
       reflex::let_react(scene_, followers_, X_WB, world::end_time(X_WB) + reflex::watched_after,
                         step, moved_);
     }
-    return forecast::future(*tools_.atlas, plan, scene_, moved_, *tools_.harm, {}, spreads_);
+    return forecast::future(*tools_.atlas, plan, scene_, moved_, *tools_.harm,
+                            {.spreads = spreads_});
   }
 
  private:
@@ -73,8 +74,9 @@ forecast::Futures read(const Scene& scene, const std::vector<Track>& tracks,
                        const ForecastTools& tools, const std::vector<SpreadOverTime>& spreads) {
   FollowedFutures futures(scene, tracks, tools, spreads);
   if (!futures.followed()) {
-    return forecast::futures(*tools.atlas, scene, tracks, *tools.harm, forecast::target_shares,
-                             forecast::strengths_of(tools.braking), {}, spreads);
+    return forecast::futures(*tools.atlas, scene, tracks, *tools.harm,
+                             {.strengths = forecast::strengths_of(tools.braking)},
+                             {.spreads = spreads});
   }
   forecast::Futures best;
   std::array<bool, manoeuvre::num_policies> found{};

@@ -64,12 +64,11 @@ template <Kind kind, class T>
 inline ActuatorCommand<T> drift_command(const FixedLane<T>& fixed, const ControllerInput<T>& state,
                                         const InLane<T>& place, MemoryLane<T>& memory) {
   const T& side = fixed.side;
-  ActuatorCommand<T> command;
-  manoeuvre::equations::drift<T>(
+  auto command = manoeuvre::equations::drift<T, ActuatorCommand<T>>(
       fixed.known, fixed.known.tuning.drift, fixed.known_grip,
       manoeuvre::equations::Drifting<T>{side * place.heading, state.v_B.x, side * state.v_B.y,
                                         side * state.yaw_rate, state.a_B.x, side * state.a_B.y},
-      step_of(kind), memory.drift, command);
+      step_of(kind), memory.drift);
   const auto left = side > 0.0;
   const Wheelwise<T> torque = command.brake_torque;
   for (std::size_t i = 0; i < num_wheels; ++i) {
@@ -81,8 +80,12 @@ inline ActuatorCommand<T> drift_command(const FixedLane<T>& fixed, const Control
 
 template <Kind kind, class T>
 inline ActuatorCommand<T> path_command(const FixedLane<T>& fixed, const ControllerInput<T>& state,
-                                       const T& x, const T& y, const T& yaw, const Turn<T>& heading,
-                                       MemoryLane<T>& memory) {
+                                       const vehicle::equations::StateVector<T>& state_vector,
+                                       const Turn<T>& heading, MemoryLane<T>& memory) {
+  using F = vehicle::equations::StateVector<T>;
+  const T& x = state_vector[F::x];
+  const T& y = state_vector[F::y];
+  const T& yaw = state_vector[F::yaw];
   const T& arm = fixed.known.percussion_arm;
   const InLane<T> place =
       in_lane<T>(fixed.curvature, x + arm * heading.cosine, y + arm * heading.sine, yaw);
@@ -102,10 +105,10 @@ inline ActuatorCommand<T> path_command(const FixedLane<T>& fixed, const Controll
   const auto slower = fixed.slower > 0.5;
   const manoeuvre::equations::Wants<T, std::remove_const_t<decltype(slower)>, kind == Kind::brakes>
       wants{fixed.rest > 0.5, slower, fixed.strength};
-  ActuatorCommand<T> command;
-  manoeuvre::equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state,
-                                       point, step_of(kind), memory, command);
-  return command;
+  return manoeuvre::equations::follow_path<T, ActuatorCommand<T>>(
+      fixed.known, wants,
+      manoeuvre::equations::PathConditions<T>{fixed.curvature, fixed.known_grip, step_of(kind)},
+      state, point, memory);
 }
 
 /// `control`, for plans of one kind.
@@ -120,8 +123,7 @@ inline ActuatorCommand<T> control(const FixedLane<T>& fixed, const ControllerInp
         in_lane<T>(fixed.curvature, state_vector[F::x], state_vector[F::y], state_vector[F::yaw]);
     result = drift_command<kind, T>(fixed, state, place, memory);
   } else {
-    result = path_command<kind, T>(fixed, state, state_vector[F::x], state_vector[F::y],
-                                   state_vector[F::yaw], heading, memory);
+    result = path_command<kind, T>(fixed, state, state_vector, heading, memory);
   }
   memory.time = memory.time + step_of(kind);
   return result;
