@@ -53,6 +53,10 @@ std::string joined(const std::vector<std::string>& methods) {
   return all;
 }
 
+std::string title_of(std::string_view method) {
+  return std::string(eval::find_method(method)->title);
+}
+
 Result<std::vector<std::string>> methods_from(const std::string& list,
                                               const ThinkingOptions& thinking,
                                               const std::string& danger) {

@@ -21,6 +21,10 @@ namespace saca::suites {
 /// All in one, as commands and journals have them: "a,b,c".
 [[nodiscard]] std::string joined(const std::vector<std::string>& methods);
 
+/// As readers know it.
+/// @param method  a name of eval::methods()
+[[nodiscard]] std::string title_of(std::string_view method);
+
 /// The names of a list "a,b,c"; empty: all that there are with this memory, model and these
 /// weights.
 /// @param danger  file of weights, or empty
