@@ -11,7 +11,6 @@ namespace saca::suites::recorded_drives_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Contains;
 using testing::HasSubstr;
 
 const std::string release = "saca/lab/recordings/testdata";  // tests run in the project's folder
