@@ -18,7 +18,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/shipped_cases.h"
-#include "apps/saca/suite_thinking.h"
+#include "apps/saca/suite_running.h"
 #include "apps/saca/version.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/journal.h"
@@ -53,7 +53,7 @@ struct LearnOptions {
 struct School {
   SuiteEncounters encounters;
   std::unique_ptr<const PlanesOfCar> planes;
-  std::unique_ptr<SuiteThinking> thinking;
+  std::unique_ptr<suites::SuiteThinking> thinking;
   std::vector<memory::MadeWith> made_with;
   std::vector<memory::Case> start;    ///< what memories know at the beginning
   std::vector<Curriculum> curricula;  ///< by seed
@@ -203,9 +203,10 @@ Result<std::unique_ptr<School>> open_school(const LearnOptions& options) {
   }
   school->planes = std::move(planes).value();
   school->made_with = made_with(*school->planes);
-  auto thinking = SuiteThinking::open({.memory = "", .model = options.from.thinking.model},
-                                      school->planes->inputs.places, school->made_with,
-                                      options.from.threads, *school->planes->setup.clock);
+  auto thinking = suites::SuiteThinking::open(
+      {.memory = "", .model = options.from.thinking.model},
+      lockstep_models(school->planes->inputs.places, *school->planes->setup.clock),
+      school->made_with, options.from.threads, *school->planes->setup.clock);
   if (!thinking.has_value()) {
     return thinking.error();
   }

@@ -124,7 +124,7 @@ Result<RegulationRun> prepare(const RegulationOptions& options,
                     .methods = methods,
                     .results = {},
                     .meta = {}};
-  auto imitators = imitators_of(methods, places.value());
+  auto imitators = suites::imitators_of(methods, places.value().root / "models");
   if (!imitators.has_value()) {
     return imitators.error();
   }

@@ -1,26 +1,26 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/regulation_command.h"
-#include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/traffic_suite.h"
-#include "saca/base/core/file.h"
 #include "saca/lab/long_work/output_file.h"
+#include "saca/lab/suites/suite_json.h"
+#include "saca/lab/suites/suite_text.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using eval::Estimate;
-using eval::MethodFigures;
 using nlohmann::json;
 
 struct SuiteCommand {
@@ -31,122 +31,6 @@ struct SuiteCommand {
 };
 
 constexpr const char* traffic_suite = "traffic";
-
-constexpr const char* usual_methods =
-    "saca,saca_at_t1,saca_paper,aeb,r157,cc_driver,fsm,rss,rss_steering,imitation,random,nothing,"
-    "first_"
-    "forecast,"
-    "newest_forecast,going_on_atlas,beliefs_atlas,beliefs_rolled_out,oracle";
-
-json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
-  json out = run.meta;
-  const std::string head = "suite." + fs::path(options.name).filename().string() + ".";
-  const auto add_figures = [&](const std::string& place, const MethodFigures& one) {
-    add_estimate(out, place + "harm", one.harm);
-    add_estimate(out, place + "regret", one.regret);
-    add_estimate(out, place + "regret_published", one.published_regret);
-    add_estimate(out, place + "harm_over_aeb", one.over_aeb);
-    add_estimate(out, place + "collision_loss", one.collision_loss);
-    add_estimate(out, place + "contact", one.contact);
-    add_estimate(out, place + "right", one.right);
-    add_estimate(out, place + "materially_worse_than_aeb", one.worse_than_aeb);
-    add_estimate(out, place + "needless", one.needless);
-    add_estimate(out, place + "switches", one.switches);
-    if (one.expected) {
-      add_estimate(out, place + "expected", one.expected->expected);
-      add_estimate(out, place + "expected.happened", one.expected->happened);
-      add_estimate(out, place + "expected.braking", one.expected->braking_expected);
-      add_estimate(out, place + "expected.braking_happened", one.expected->braking_happened);
-      add_estimate(out, place + "expected.knowingly_worse", one.expected->knowingly_worse);
-      add_estimate(out, place + "expected.several_admissible", one.expected->several);
-    }
-    if (one.false_trigger_loss) {
-      add_estimate(out, place + "false_trigger_loss", *one.false_trigger_loss);
-      add_estimate(out, place + "false_triggers", *one.false_triggers);
-    }
-  };
-  const auto aeb = index_of(run.methods, "aeb");
-  for (std::size_t m = 0; m < result.all.size(); ++m) {
-    const MethodFigures& one = result.all[m];
-    const std::string place = head + one.method + ".";
-    add_figures(place, one);
-    if (aeb && result.all[*aeb].regret.value > 0.0) {
-      out[place + "regret_over_aeb"] = one.regret.value / result.all[*aeb].regret.value;
-    }
-    add_estimate(out, place + "harm_over_first", eval::harm_above(run.rows, m, 0, options.seed));
-    add_decisions(out, place, one);
-    out[place + "faults"] = one.faults;
-    for (const auto& [family, figures] : result.families) {
-      if (!figures.empty()) {
-        add_figures(place + family + ".", figures[m]);
-      }
-    }
-  }
-  const DriverFigures drivers = driver_figures(run);
-  if (drivers.count > 0) {
-    out[head + "driver.n"] = drivers.count;
-    out[head + "driver.harm"] = drivers.harm;
-    out[head + "driver.met"] = drivers.met;
-    out[head + "driver.braked"] = drivers.braked;
-    out[head + "driver.steered"] = drivers.steered;
-    for (std::size_t m = 0; m < run.methods.size(); ++m) {
-      out[head + run.methods[m] + ".agrees_with_driver"] = drivers.agreement[m];
-    }
-  }
-  out[head + "n"] = run.rows.size();
-  out[head + "faults"] = result.faults;
-  if (run.worked > 0) {
-    const double rate = run.worked / run.seconds;
-    out[head + "encounters_per_s"] = rate;
-    out[head + "encounters_per_s_core"] = rate / options.threads;
-    out[head + "threads"] = options.threads;
-  }
-  return out;
-}
-
-void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
-  app::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n", options.name,
-             run.rows.size(), result.faults);
-  for (const std::string& note : run.notes) {
-    app::print("{}\n", note);
-  }
-  app::print("\n");
-  constexpr const char* line = "{:22} {:26} {:26} {:26} {:7} {:6} {:9} {:8}\n";
-  app::print(line, "method", "harm", "regret, all plans", "regret, as published", "contact",
-             "right", "worse than", "needless");
-  app::print(line, "", "", "", "", "%", "%", "AEB, %", "%");
-  for (const MethodFigures& one : result.all) {
-    const auto share = [](const Estimate& estimate) {
-      return estimate.n == 0 ? std::string("-") : fmt::format("{:.1f}", 100.0 * estimate.value);
-    };
-    app::print(line, one.method, with_interval(one.harm, 4), with_interval(one.regret, 4),
-               with_interval(one.published_regret, 4), share(one.contact), share(one.right),
-               share(one.worse_than_aeb), share(one.needless));
-  }
-  for (const MethodFigures& one : result.all) {
-    if (one.thinking) {
-      app::print("\n{}\n", decisions_text(one));
-      if (one.expected) {
-        app::print("{}\n", expectations_text(one));
-      }
-    }
-  }
-  const DriverFigures drivers = driver_figures(run);
-  if (drivers.count > 0) {
-    app::print("\n{} recorded drivers: harm {:.4f}, {} met somebody, {} braked, {} moved aside\n",
-               drivers.count, drivers.harm, drivers.met, drivers.braked, drivers.steered);
-    for (std::size_t m = 0; m < run.methods.size(); ++m) {
-      app::print("  {} does as the driver did in {:.0f} % of those who met nobody\n",
-                 run.methods[m], 100.0 * drivers.agreement[m]);
-    }
-  }
-  if (run.worked > 0) {
-    app::print("\n{:.1f} encounters/s on {} threads\n", run.worked / run.seconds, options.threads);
-  }
-  if (result.method_faults > 0) {
-    app::print("{} times a method failed: the rows hold why\n", result.method_faults);
-  }
-}
 
 std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const json& figures,
                            const SuiteCommandOptions& options) {
@@ -172,15 +56,6 @@ int watch(const SuiteCommand& options) {
 
 bool thinks(const CLI::App& line) {
   return line.count("--memory") > 0 || line.count("--llm") > 0 || line.count("--untuned") > 0;
-}
-
-/// The usual methods, and SACA without what it was given.
-std::string usual_with(const ThinkingOptions& thinking) {
-  std::string methods = "saca";
-  methods += thinking.memory.empty() ? "" : ",saca_no_memory";
-  methods += thinking.model == "off" ? "" : ",saca_no_model";
-  methods += thinking.untuned.empty() ? "" : ",saca_untuned";
-  return methods + std::string(usual_methods).substr(std::string_view("saca").size());
 }
 
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
@@ -212,47 +87,46 @@ int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
   return run_regulation(tests);
 }
 
-int run(const CLI::App& line, SuiteCommand options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refused(places.error());
-  }
-  if (fs::exists(regulation_path(places.value(), options.suite.name))) {
-    return run_as_regulation(line, options);
-  }
+/// Why the line cannot be meant as it stands; nullopt: it can.
+std::optional<std::string> why_wrong(const CLI::App& line, const SuiteCommand& options) {
+  const SuiteCommandOptions& suite = options.suite;
   if (!options.rows.empty()) {
-    complain("--rows: want it of a regulation (fmvss127, r152), got " + options.suite.name);
-    return wrong_command_line;
+    return "--rows: want it of a regulation (fmvss127, r152), got " + suite.name;
   }
-  SuiteCommandOptions& suite = options.suite;
   if ((suite.name == traffic_suite || suite.name == "100car") == suite.data.empty()) {
-    complain("--data: want it with the suites 100car and traffic, and only there");
-    return wrong_command_line;
+    return "--data: want it with the suites 100car and traffic, and only there";
   }
   if (suite.name == traffic_suite && thinks(line)) {
-    complain("--memory, --llm, --untuned: SACA watches the suite traffic with the verdict alone");
-    return wrong_command_line;
+    return "--memory, --llm, --untuned: SACA watches the suite traffic with the verdict alone";
   }
-  if (suite.name == traffic_suite) {
-    return watch(options);
+  return std::nullopt;
+}
+
+int replay(const SuiteCommandOptions& suite, std::uint64_t number) {
+  const auto command = write_encounter(suite, number);
+  if (!command.has_value()) {
+    return refused(command.error());
   }
-  if (options.replay) {
-    const auto command = write_encounter(suite, *options.replay);
-    if (!command.has_value()) {
-      return refused(command.error());
-    }
-    app::print("{}\n", command.value());
-    return success;
+  app::print("{}\n", command.value());
+  return success;
+}
+
+int write_and_print(const SuiteRun& run, const SuiteCommandOptions& suite, bool as_json) {
+  const SuiteResult result = result_of(run, suite.seed);
+  const json figures = suites::json_of(run, result, suite);
+  if (const auto problem = write(run, result, figures, suite)) {
+    return refused(*problem);
   }
-  if (line.count("--methods") == 0) {
-    suite.methods = usual_with(suite.thinking);
+  if (as_json) {
+    app::print_json(figures);
+  } else {
+    app::print("{}page: {}, rows: {}\n", suites::text_of(run, result, suite),
+               fs::path(suite.output).replace_extension(".html").string(), suite.output);
   }
-  const auto methods =
-      methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger);
-  if (!methods.has_value()) {
-    complain(methods.error().message);
-    return wrong_command_line;
-  }
+  return result.faults + result.method_faults > 0 ? some_failed : success;
+}
+
+int play(SuiteCommandOptions suite, const std::vector<std::string>& methods, bool as_json) {
   if (suite.output.empty()) {
     suite.output =
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
@@ -260,7 +134,7 @@ int run(const CLI::App& line, SuiteCommand options) {
   if (const auto problem = long_work::why_outputs_unwritable({suite.output})) {
     return refused(*problem);
   }
-  const auto ran = run_suite(suite, "suite", methods.value());
+  const auto ran = run_suite(suite, "suite", methods);
   if (!ran.has_value()) {
     return refused(ran.error());
   }
@@ -268,20 +142,38 @@ int run(const CLI::App& line, SuiteCommand options) {
     complain("interrupted; the same command goes on where this one stopped");
     return was_interrupted;
   }
-  const SuiteRun& done = *ran.value();
-  const SuiteResult result = result_of(done, suite.seed);
-  const json figures = json_of(done, result, suite);
-  if (const auto problem = write(done, result, figures, suite)) {
-    return refused(*problem);
+  return write_and_print(*ran.value(), suite, as_json);
+}
+
+int run(const CLI::App& line, SuiteCommand options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return refused(places.error());
   }
-  if (options.as_json) {
-    app::print_json(figures);
-  } else {
-    print(done, result, suite);
-    app::print("page: {}, rows: {}\n", fs::path(suite.output).replace_extension(".html").string(),
-               suite.output);
+  SuiteCommandOptions& suite = options.suite;
+  if (fs::exists(regulation_path(places.value(), suite.name))) {
+    return run_as_regulation(line, options);
   }
-  return result.faults + result.method_faults > 0 ? some_failed : success;
+  if (const auto problem = why_wrong(line, options)) {
+    complain(*problem);
+    return wrong_command_line;
+  }
+  if (suite.name == traffic_suite) {
+    return watch(options);
+  }
+  if (options.replay) {
+    return replay(suite, *options.replay);
+  }
+  if (line.count("--methods") == 0) {
+    suite.methods = suites::usual_methods(suite.thinking);
+  }
+  const auto methods =
+      methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger);
+  if (!methods.has_value()) {
+    complain(methods.error().message);
+    return wrong_command_line;
+  }
+  return play(suite, methods.value(), options.as_json);
 }
 
 }  // namespace
@@ -292,7 +184,7 @@ void add_suite(CLI::App& line, int& exit_code) {
       "Run methods in closed loop over many encounters, paired, or over what a regulation asks "
       "(fmvss127, r152); can be interrupted");
   const auto options = std::make_shared<SuiteCommand>();
-  options->suite.methods = usual_methods;
+  options->suite.methods = suites::usual_methods({});
   add_suite_options(*command, options->suite);
   add_untuned_option(*command, options->suite.thinking);
   command

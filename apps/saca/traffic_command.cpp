@@ -19,6 +19,7 @@
 #include "saca/lab/recordings/pack.h"
 #include "saca/lab/recordings/recorded_set.h"
 #include "saca/lab/recordings/set_file.h"
+#include "saca/lab/recordings/set_info.h"
 
 namespace saca::app {
 namespace {
@@ -27,43 +28,12 @@ namespace fs = std::filesystem;
 using recordings::PackProgress;
 using recordings::PackResult;
 using recordings::RecordedSet;
-using recordings::SetCounts;
 
-nlohmann::json counts_json(const SetCounts& counts) {
-  return {{"recordings", counts.recordings},      {"groups", counts.groups},
-          {"vehicles", counts.vehicles},          {"samples", counts.samples},
-          {"vehicle_hours", counts.hours},        {"steps_left", counts.steps_left},
-          {"steps_right", counts.steps_right},    {"samples_in_lane", counts.in_lane},
-          {"samples_with_lead", counts.with_lead}};
-}
-
-nlohmann::json set_json(const RecordedSet& set) {
-  nlohmann::json sites = nlohmann::json::object();
-  for (const auto& [site, counts] : recordings::counts_by_site(set)) {
-    sites[site] = counts_json(counts);
-  }
-  return {{"schema", "saca.traffic_info/1"},
-          {"all", counts_json(recordings::counts_of(set))},
-          {"sites", sites},
-          {"skipped", set.skipped}};
-}
-
-void tell_counts(const std::string& what, const SetCounts& counts) {
-  app::print("{}: {} recordings in {} groups, {} vehicles, {} samples, {:.2f} vehicle-hours\n",
-             what, counts.recordings, counts.groups, counts.vehicles, counts.samples, counts.hours);
-  app::print(
-      "  lanes crossed: {} to the left, {} to the right; samples in a lane: {}, with a lead: "
-      "{}\n",
-      counts.steps_left, counts.steps_right, counts.in_lane, counts.with_lead);
-}
-
-void tell_set(const RecordedSet& set) {
-  for (const auto& [site, counts] : recordings::counts_by_site(set)) {
-    tell_counts(site, counts);
-  }
-  tell_counts("all", recordings::counts_of(set));
-  for (const auto& [reason, count] : set.skipped) {
-    app::print("  left out: {} x {}\n", count, reason);
+void print_set(const RecordedSet& set, bool as_json) {
+  if (as_json) {
+    app::print_json(recordings::set_json(set));
+  } else {
+    app::print("{}", recordings::set_text(set));
   }
 }
 
@@ -114,11 +84,7 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
   if (const auto problem = recordings::write_set(options.output, packed.value().set)) {
     return refused(*problem);
   }
-  if (options.as_json) {
-    app::print_json(set_json(packed.value().set));
-  } else {
-    tell_set(packed.value().set);
-  }
+  print_set(packed.value().set, options.as_json);
   return success;
 }
 
@@ -137,11 +103,7 @@ int show_info(const std::string& file, bool as_json) {
   if (!set.has_value()) {
     return refused(set.error());
   }
-  if (as_json) {
-    app::print_json(set_json(set.value()));
-  } else {
-    tell_set(set.value());
-  }
+  print_set(set.value(), as_json);
   return success;
 }
 

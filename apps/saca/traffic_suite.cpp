@@ -2,368 +2,59 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <utility>
 
 #include "apps/saca/json_output.h"
+#include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/thresholds_options.h"
-#include "saca/base/core/file.h"
+#include "apps/saca/settings.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/report/suite_page.h"
+#include "saca/lab/suites/traffic_json.h"
+#include "saca/lab/suites/traffic_page.h"
+#include "saca/lab/suites/traffic_text.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using eval::Rate;
-using eval::ShadowCounts;
-using eval::ShadowFigures;
-using eval::ShadowReason;
-using eval::ShadowRow;
-using eval::ShadowTrigger;
-using nlohmann::json;
 
-constexpr std::size_t most_cards = 150;    // of a page: some 40 kB each
-constexpr std::size_t most_left_out = 20;  // reasons told one by one
-
-std::set<std::string> traffic_sources(const WatchedTraffic& traffic) {
-  std::set<std::string> sources;
-  for (const DriveToWatch& drive : traffic.drives) {
-    sources.insert(drive.source);
+int write_and_print(const suites::WatchedTraffic& traffic, const suites::TrafficWatch& watch,
+                    const suites::WatchTools& tools, bool as_json) {
+  const nlohmann::json figures = suites::traffic_json(traffic, watch, SACA_VERSION);
+  const std::string text = json_text(figures);
+  const fs::path page = fs::path(watch.output).replace_extension(".html");
+  const fs::path beside = fs::path(watch.output).replace_extension(".json");
+  auto problem = long_work::write_output(
+      page, report::suite_page(suites::traffic_page(traffic, tools, figures)));
+  if (!problem) {
+    problem = long_work::write_output(beside, text + "\n");
   }
-  return sources;
-}
-
-// --- figures
-
-void add_rate(json& out, const std::string& name, const Rate& rate) {
-  out[name] = rate.value;
-  out[name + ".lo"] = rate.low;
-  out[name + ".hi"] = rate.high;
-}
-
-/// @param many  what is counted: "triggers"
-void add_counts(json& out, const std::string& place, const std::string& many,
-                const ShadowFigures& all, const ShadowCounts& counts) {
-  out[place + many] = counts.per_hour.count;
-  out[place + many + "_at_rest"] = counts.at_rest;
-  out[place + "false_" + many] = counts.false_per_hour.count;
-  if (all.hours > 0.0) {
-    add_rate(out, place + many + "_per_hour", counts.per_hour);
-    add_rate(out, place + "false_" + many + "_per_hour", counts.false_per_hour);
+  if (problem) {
+    return refused(*problem);
   }
-  if (all.kilometres > 0.0) {
-    add_rate(out, place + many + "_per_1000km", counts.per_1000km);
-    add_rate(out, place + "false_" + many + "_per_1000km", counts.false_per_1000km);
+  if (as_json) {
+    app::print("{}\n", text);
+  } else {
+    app::print("{}page: {}, figures: {}\n", suites::traffic_text(traffic), page.string(),
+               beside.string());
   }
-}
-
-void add_shadow_figures(json& out, const std::string& place, const ShadowFigures& one) {
-  out[place + "drives"] = one.drives;
-  out[place + "left_out"] = one.left_out;
-  out[place + "exposure_h"] = one.hours;
-  out[place + "exposure_km"] = one.kilometres;
-  out[place + "previews"] = one.previews_per_hour.count;
-  if (one.hours > 0.0) {
-    add_rate(out, place + "previews_per_hour", one.previews_per_hour);
-  }
-  if (one.kilometres > 0.0) {
-    add_rate(out, place + "previews_per_1000km", one.previews_per_1000km);
-  }
-  add_counts(out, place, "triggers", one, one.triggers);
-  add_counts(out, place, "interventions", one, one.interventions);
-  out[place + "danger"] = one.triggers.danger;
-  out[place + "interventions_in_danger"] = one.interventions.danger;
-  out[place + "early_interventions"] = one.early;
-  for (const auto& [reason, times] : one.triggers.reasons) {
-    out[place + "reason." + std::string(name(reason))] = times;
-  }
-}
-
-json traffic_figures(const WatchedTraffic& traffic, const TrafficWatch& options) {
-  std::string folders;
-  for (const std::string& folder : options.folders) {
-    folders += " " + folder;
-  }
-  json out{
-      {"meta.command", fmt::format("saca suite traffic --data{} --count {} --seed {} --car {}{}",
-                                   folders, options.count, options.seed, options.car,
-                                   thresholds_arguments(options.thresholds))},
-      {"meta.seed", std::to_string(options.seed)},
-      {"meta.n", std::to_string(traffic.rows.size())},
-      {"meta.car", options.car},
-      {"meta.version", SACA_VERSION}};
-  add_shadow_figures(out, "traffic.", eval::shadow_figures(traffic.rows, ""));
-  for (const std::string& source : traffic_sources(traffic)) {
-    add_shadow_figures(out, "traffic." + source + ".", eval::shadow_figures(traffic.rows, source));
-  }
-  return out;
-}
-
-// --- for people
-
-std::string with_bounds(const Rate& rate) {
-  return fmt::format("{:.1f} ({:.1f} to {:.1f})", rate.value, rate.low, rate.high);
-}
-
-void print_line(const std::string& source, const ShadowFigures& one) {
-  app::print("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:24} {:8} {:6} {:24}\n", source,
-             one.drives, one.hours, one.kilometres, one.previews_per_hour.count,
-             one.triggers.per_hour.count, one.triggers.false_per_hour.count,
-             with_bounds(one.triggers.false_per_hour), one.interventions.per_hour.count,
-             one.interventions.false_per_hour.count, with_bounds(one.interventions.false_per_hour));
-}
-
-void print_traffic(const WatchedTraffic& traffic, const ShadowFigures& all) {
-  app::print("SACA in shadow: {} of {} recorded drives; rates with exact 95 % intervals\n\n",
-             traffic.rows.size(), traffic.found);
-  app::print("{:12} {:>6} {:>8} {:>9} {:>8} {:>8} {:>6} {:24} {:>8} {:>6} {:24}\n", "source",
-             "drives", "h", "km", "previews", "triggers", "false", "per h", "SACA acts", "false",
-             "per h");
-  for (const std::string& source : traffic_sources(traffic)) {
-    print_line(source, eval::shadow_figures(traffic.rows, source));
-  }
-  print_line("all", all);
-  app::print("\n{} of the times that SACA acts come before T1.\n", all.early);
-  const auto print_reasons = [](const char* what, const ShadowCounts& counts) {
-    app::print("\n{}:\n", what);
-    for (const auto& [reason, times] : counts.reasons) {
-      app::print("{:6} {:6} {}\n", times, is_danger(reason) ? "danger" : "false", meaning(reason));
-    }
-  };
-  print_reasons("Triggers", all.triggers);
-  print_reasons("SACA acts", all.interventions);
-  if (all.left_out > 0) {
-    app::print("{:6} drives could not be watched: the page tells why\n", all.left_out);
-  }
-}
-
-std::string needed_text(const std::optional<double>& deceleration) {
-  return deceleration ? fmt::format("{:.1f}", *deceleration) : "more than 12";
-}
-
-/// A trigger, or SACA begins to act.
-struct TriggerRow {
-  const ShadowTrigger* trigger = nullptr;
-  const eval::ShadowIntervention* begun = nullptr;  ///< nullptr: a trigger alone
-  const DriveToWatch* drive = nullptr;
-
-  /// "T1 has come", "SACA begins AEB before T1".
-  [[nodiscard]] std::string what() const {
-    return begun == nullptr ? "T1 has come"
-                            : "SACA begins " + begun->plan + (begun->early ? " before T1" : "");
-  }
-};
-
-/// Those that count against SACA first, and of these its own actions.
-std::vector<TriggerRow> triggers_of(const WatchedTraffic& traffic) {
-  std::vector<TriggerRow> all;
-  for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
-    for (const eval::ShadowIntervention& begun : traffic.rows[k].watched.interventions) {
-      all.push_back({&begun.trigger, &begun, &traffic.drives[k]});
-    }
-  }
-  for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
-    for (const ShadowTrigger& trigger : traffic.rows[k].watched.triggers) {
-      all.push_back({&trigger, nullptr, &traffic.drives[k]});
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [](const TriggerRow& a, const TriggerRow& b) {
-    const auto rank = [](const TriggerRow& one) {
-      const ShadowReason reason = one.trigger->judgement.reason;
-      const bool unsure =
-          reason == ShadowReason::bodies_touch || reason == ShadowReason::track_ends;
-      return std::pair(is_danger(reason), unsure);
-    };
-    return rank(a) < rank(b);
-  });
-  return all;
-}
-
-std::string judged_text(const ShadowTrigger& trigger) {
-  const eval::ShadowJudgement& told = trigger.judgement;
-  return fmt::format("{}: {}", is_danger(told.reason) ? "danger" : "false", meaning(told.reason));
-}
-
-std::string in_short(ShadowReason reason) {
-  std::string words(name(reason));
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return (is_danger(reason) ? "danger: " : "false: ") + words;
-}
-
-report::PageTable figures_table(const WatchedTraffic& traffic) {
-  report::PageTable table{
-      .heading = "Rates",
-      .lines = {"95 % intervals, exact (Garwood) for events that come independently of each "
-                "other. A trigger, or an action of SACA, that is not danger is false."},
-      .columns = {"drives", "hours", "km", "previews", "previews per h", "triggers",
-                  "triggers per h", "danger", "false", "false per h", "false per 1,000 km",
-                  "SACA acts", "danger", "false", "false per h", "false per 1,000 km"},
-      .rows = {}};
-  const auto add = [&](const std::string& source, const ShadowFigures& one) {
-    table.rows.push_back(
-        {.name = source,
-         .explanation = {},
-         .cells = {std::to_string(one.drives), fmt::format("{:.3f}", one.hours),
-                   fmt::format("{:.2f}", one.kilometres),
-                   std::to_string(one.previews_per_hour.count), with_bounds(one.previews_per_hour),
-                   std::to_string(one.triggers.per_hour.count), with_bounds(one.triggers.per_hour),
-                   std::to_string(one.triggers.danger),
-                   std::to_string(one.triggers.false_per_hour.count),
-                   with_bounds(one.triggers.false_per_hour),
-                   with_bounds(one.triggers.false_per_1000km),
-                   std::to_string(one.interventions.per_hour.count),
-                   std::to_string(one.interventions.danger),
-                   std::to_string(one.interventions.false_per_hour.count),
-                   with_bounds(one.interventions.false_per_hour),
-                   with_bounds(one.interventions.false_per_1000km)},
-         .shades = {}});
-  };
-  for (const std::string& source : traffic_sources(traffic)) {
-    add(source, eval::shadow_figures(traffic.rows, source));
-  }
-  add("all", eval::shadow_figures(traffic.rows, ""));
-  return table;
-}
-
-report::PageTable triggers_table(const std::vector<TriggerRow>& triggers) {
-  report::PageTable table{.heading = "Every trigger, and every time that SACA acts",
-                          .lines = {},
-                          .columns = {"what", "at, s", "threat", "time to conflict, s", "ego, m/s",
-                                      "judged", "driver braked, m/s^2", "other braked, m/s^2",
-                                      "driver steered, m/s^2", "needed, m/s^2", "least gap, m"},
-                          .rows = {}};
-  for (const TriggerRow& one : triggers) {
-    const ShadowTrigger& trigger = *one.trigger;
-    const eval::ShadowJudgement& told = trigger.judgement;
-    table.rows.push_back(
-        {.name = one.drive->source + ": " + one.drive->name,
-         .explanation = {},
-         .cells = {one.what(), fmt::format("{:.2f}", trigger.time), trigger.who,
-                   fmt::format("{:.2f}", trigger.time_to_conflict),
-                   fmt::format("{:.1f}", trigger.speed), in_short(told.reason),
-                   fmt::format("{:.1f}", told.driver_deceleration),
-                   fmt::format("{:.1f}", told.other_deceleration),
-                   fmt::format("{:.1f}", told.driver_lateral_acceleration),
-                   needed_text(told.needed_deceleration), fmt::format("{:.2f}", told.least_gap)},
-         .shades = {},
-         .faded = is_danger(told.reason)});
-  }
-  return table;
-}
-
-std::optional<report::GalleryCard> card_of_trigger(const TriggerRow& one, const Inputs& inputs) {
-  const auto ego = one.drive->open();
-  if (!ego.has_value()) {
-    return std::nullopt;
-  }
-  const ShadowTrigger& trigger = *one.trigger;
-  const eval::ShadowJudgement& told = trigger.judgement;
-  const eval::ShadowPicture picture = eval::shadow_picture(
-      ego.value().scenario,
-      {.car = &inputs.car, .intent = &inputs.intent, .thresholds = {}, .saca = nullptr}, trigger);
-  report::GalleryCard card{
-      .title = fmt::format("{}: {}, at {:.2f} s: {}; {}", one.drive->source, one.drive->name,
-                           trigger.time, one.what(), judged_text(trigger)),
-      .lines = {fmt::format(
-          "{} would be met in {:.2f} s, at {:.1f} m/s. Then the driver braked with {:.1f} and "
-          "steered with {:.1f} m/s^2, {} braked with {:.1f} m/s^2; {} m/s^2 was needed; the least "
-          "gap was {:.2f} m.",
-          trigger.who, trigger.time_to_conflict, trigger.speed, told.driver_deceleration,
-          told.driver_lateral_acceleration, trigger.who, told.other_deceleration,
-          needed_text(told.needed_deceleration), told.least_gap)},
-      .done = {},
-      .best = {},
-      .command = one.drive->command};
-  card.done.title = "As recorded, 3 s on";
-  card.done.scene = picture.scene;
-  card.done.ego = picture.ego;
-  card.done.others = picture.others;
-  card.best.title = "As the trigger supposed, until the conflict";
-  card.best.scene = picture.scene;
-  card.best.ego = picture.supposed_ego;
-  card.best.others = picture.supposed_others;
-  card.done.shown_P = report::scene_extent(card.done);  // both of one ground
-  card.best.shown_P = card.done.shown_P;
-  return card;
-}
-
-std::string rate_sentence(const WatchedTraffic& traffic) {
-  const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
-  return fmt::format(
-      "SACA watched {:.2f} hours and {:.1f} km of recorded driving ({} drives) without taking the "
-      "wheel. {} times a conflict came within T1: {} times there was danger by the rule below, {} "
-      "times there was none; {} times it stood. It would have acted {} times, {} of them before "
-      "T1; {} times there was danger, {} times there was none: {} false actions per 1,000 km, {} "
-      "per hour.",
-      all.hours, all.kilometres, all.drives, all.triggers.per_hour.count, all.triggers.danger,
-      all.triggers.false_per_hour.count, all.triggers.at_rest, all.interventions.per_hour.count,
-      all.early, all.interventions.danger, all.interventions.false_per_hour.count,
-      with_bounds(all.interventions.false_per_1000km),
-      with_bounds(all.interventions.false_per_hour));
-}
-
-report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figures) {
-  const std::vector<TriggerRow> triggers = triggers_of(traffic);
-  report::SuitePage page;
-  page.title = "Normal driving, in shadow";
-  page.lines = {
-      rate_sentence(traffic),
-      "A trigger is danger if within 3 s the driver or who threatens brakes with 4 m/s^2 or more "
-      "(over half a second), or the driver steers across the lane with 3 m/s^2 or more (over a "
-      "second), or if, on the way that the driver took, at the speed that he had, only braking "
-      "with 4 m/s^2 or more from the trigger on would have kept the bodies apart, or if a crash "
-      "follows. Else it is false; so is one that errors of the recording set off: bodies that "
-      "overlap, a threat whose track has only begun or is about to end."};
-  page.tables = {figures_table(traffic), triggers_table(triggers)};
-  page.gallery_heading =
-      triggers.size() > most_cards
-          ? fmt::format("The first {} of {}, false ones first", most_cards, triggers.size())
-          : "Each of them, false ones first";
-  for (const TriggerRow& one : triggers) {
-    if (page.gallery.size() == most_cards) {
-      break;
-    }
-    if (auto card = card_of_trigger(one, traffic.planes->inputs)) {
-      page.gallery.push_back(std::move(*card));
-    }
-  }
-  for (const auto& [key, value] : figures.items()) {
-    if (key.starts_with("meta.")) {
-      page.footnotes.push_back(key.substr(5) + ": " + value.get<std::string>());
-    }
-  }
-  page.footnotes.push_back(
-      fmt::format("{} drives drawn of {}", traffic.rows.size(), traffic.found));
-  page.footnotes.insert(page.footnotes.end(), traffic.notes.begin(), traffic.notes.end());
-  std::map<std::string, int> reasons;
-  for (const ShadowRow& row : traffic.rows) {
-    if (!row.left_out.empty()) {
-      ++reasons[row.source + ": " + row.left_out];
-    }
-  }
-  for (const auto& [reason, times] : reasons) {
-    if (page.footnotes.size() > most_left_out + traffic.notes.size()) {
-      page.footnotes.push_back("and others");
-      break;
-    }
-    page.footnotes.push_back(fmt::format("not watched: {} x {}", times, reason));
-  }
-  return page;
+  return success;
 }
 
 }  // namespace
 
-int run_traffic_suite(const TrafficWatch& options, bool as_json) {
-  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
+int run_traffic_suite(const suites::TrafficWatch& watch, bool as_json) {
+  if (const auto problem = long_work::why_outputs_unwritable({watch.output})) {
     return refused(*problem);
   }
-  const auto watched = watch_traffic(options);
+  const auto planes = open_planes(watch.car, watch.thresholds);
+  if (!planes.has_value()) {
+    return refused(planes.error());
+  }
+  const PlanesOfCar& of_car = *planes.value();
+  const suites::WatchTools tools{
+      .car = &of_car.inputs.car, .intent = &of_car.inputs.intent, .saca = &of_car.setup};
+  const auto watched = suites::watch_traffic(watch, tools, SACA_VERSION, progress_display());
   if (!watched.has_value()) {
     return refused(watched.error());
   }
@@ -371,34 +62,14 @@ int run_traffic_suite(const TrafficWatch& options, bool as_json) {
     complain("interrupted; the same command goes on where this one stopped");
     return was_interrupted;
   }
-  const WatchedTraffic& traffic = *watched.value();
-  const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
-  if (all.drives == 0) {
+  const suites::WatchedTraffic& traffic = *watched.value();
+  if (eval::shadow_figures(traffic.rows, "").drives == 0) {
     complain(fmt::format("{}: want drives that can be watched, got none of {}: {}",
-                         options.folders.front(), traffic.rows.size(),
+                         watch.folders.front(), traffic.rows.size(),
                          traffic.rows.front().left_out));
     return bad_input;
   }
-  const json figures = traffic_figures(traffic, options);
-  const std::string text = json_text(figures);
-  fs::path page = options.output;
-  page.replace_extension(".html");
-  fs::path beside = options.output;
-  beside.replace_extension(".json");
-  if (auto problem =
-          long_work::write_output(page, report::suite_page(traffic_page(traffic, figures)))) {
-    return refused(*problem);
-  }
-  if (auto problem = long_work::write_output(beside, text + "\n")) {
-    return refused(*problem);
-  }
-  if (as_json) {
-    app::print("{}\n", text);
-  } else {
-    print_traffic(traffic, all);
-    app::print("page: {}, figures: {}\n", page.string(), beside.string());
-  }
-  return success;
+  return write_and_print(traffic, watch, tools, as_json);
 }
 
 }  // namespace saca::app

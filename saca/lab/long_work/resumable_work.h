@@ -30,6 +30,8 @@ struct ResumableWork {
   std::size_t count = 0;
   ProgressDisplay display = ProgressDisplay::shown;
   int threads = 1;  ///< they do not change the rows
+  std::size_t at_once =
+      0;  ///< rows between two looks at the signals; 0: one on one thread, else 32
   std::function<Row(std::size_t number)> row;
   std::function<std::string(const Row& row)> line_of;
   std::function<Result<Row>(const std::string& line)> row_from;
@@ -66,11 +68,12 @@ template <class Row>
   const auto before = static_cast<int>(rows.size());
   SteadyClock clock;
   ProgressLine progress(work.progress, static_cast<int>(work.count), clock, work.display);
+  const std::size_t usual = work.threads == 1 ? 1 : 32;
+  const std::size_t at_once = work.at_once == 0 ? usual : work.at_once;
   while (rows.size() < work.count) {
     if (interrupted()) {
       return std::optional<std::vector<Row>>();
     }
-    const std::size_t at_once = work.threads == 1 ? 1 : 32;
     const std::size_t first = rows.size();
     std::vector<Row> next(std::min(at_once, work.count - first));
     in_parallel(next.size(), work.threads, [&](std::size_t i) { next[i] = work.row(first + i); });

@@ -76,6 +76,15 @@ TEST_F(LongWork, GivesTheSameByAnyNumberOfThreads) {
   }
 }
 
+// A failure is looked for after so many rows as are worked on at once.
+TEST_F(LongWork, WorksOnSoManyAtOnce) {
+  auto work = squares(9);
+  work.at_once = 4;
+  work.failure = [] { return std::optional(Error{Error::Code::unreadable, "server: gone"}); };
+  EXPECT_FALSE(rows_of(work).has_value());
+  EXPECT_THAT(worked_on_, ElementsAre(0, 1, 2, 3));
+}
+
 TEST_F(LongWork, RefusesAJournalOfOtherWorkAndALineThatIsNoRow) {
   ASSERT_TRUE(rows_of(squares(1)).has_value());
   auto other = squares(1);

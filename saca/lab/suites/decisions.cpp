@@ -1,12 +1,15 @@
-#include "apps/saca/suite_decisions.h"
+#include "saca/lab/suites/decisions.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <vector>
 
-namespace saca::app {
+#include "saca/lab/eval/methods.h"
+
+namespace saca::suites {
 namespace {
 
 using encounter::ThinkingFigures;
@@ -144,4 +147,4 @@ std::string decisions_text(const MethodFigures& figures) {
   return text;
 }
 
-}  // namespace saca::app
+}  // namespace saca::suites

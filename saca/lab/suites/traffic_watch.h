@@ -1,16 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/saca/planes_making.h"
 #include "saca/lab/eval/shadow_rows.h"
+#include "saca/lab/long_work/progress.h"
+#include "saca/lab/suites/recorded_drives.h"
+#include "saca/onboard/reflex/trigger.h"
 
-namespace saca::app {
+namespace saca::suites {
 
 /// Which recorded drives are watched.
 struct TrafficWatch {
@@ -23,23 +23,15 @@ struct TrafficWatch {
   int threads = 1;
 };
 
-/// A recorded drive as a scenario, and what of it counts.
-struct RecordedEgo {
-  scenario::Scenario scenario;
-  eval::ShadowWindow window;
-};
-
-/// One that may be watched.
-struct DriveToWatch {
-  std::string source;   ///< "us101", "lankershim", "100car"
-  std::string name;     ///< within it
-  std::string command;  ///< that makes the scenario
-  std::function<Result<RecordedEgo>()> open;
+/// What SACA watches with; it outlives the watching.
+struct WatchTools {
+  const manoeuvre::Car* car = nullptr;
+  const intent::Model* intent = nullptr;
+  const runtime::PlanesSetup* saca = nullptr;
 };
 
 /// What was watched.
 struct WatchedTraffic {
-  std::shared_ptr<const PlanesOfCar> planes;
   std::vector<DriveToWatch> drives;   ///< as many as rows
   std::vector<eval::ShadowRow> rows;  ///< in the order of the drives
   std::size_t found = 0;              ///< drives that there were to draw from
@@ -47,9 +39,18 @@ struct WatchedTraffic {
 };
 
 /// Reads the folders and watches, with progress on the error stream and a journal that the same
-/// command goes on from.
+/// watch goes on from.
+/// @param version  of the program, for the journal
 /// @return  nullopt: interrupted. Error::Code::malformed, naming file and reason, where a file
 ///          cannot be read; set-based predictions are passed over
-[[nodiscard]] Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options);
+[[nodiscard]] Result<std::optional<WatchedTraffic>> watch_traffic(
+    const TrafficWatch& watch, const WatchTools& tools, const std::string& version,
+    long_work::ProgressDisplay display);
 
-}  // namespace saca::app
+/// The command that watches the same again.
+[[nodiscard]] std::string command_of(const TrafficWatch& watch);
+
+/// The sources of the drives, sorted.
+[[nodiscard]] std::vector<std::string> sources_of(const WatchedTraffic& traffic);
+
+}  // namespace saca::suites

@@ -6,7 +6,7 @@
 #include "saca/lab/eval/suite_figures.h"
 #include "saca/lab/report/suite_page.h"
 
-namespace saca::app {
+namespace saca::suites {
 
 /// Where the decisions of a method came from, as a page shows it: sources, reasons, and of what
 /// thinks ahead what became of its forecasts.
@@ -23,4 +23,4 @@ void add_decisions(nlohmann::json& out, const std::string& place,
 /// Where the decisions came from in a line, for the terminal.
 [[nodiscard]] std::string decisions_text(const eval::MethodFigures& figures);
 
-}  // namespace saca::app
+}  // namespace saca::suites
