@@ -32,12 +32,6 @@ struct SuiteCommand {
 
 constexpr const char* traffic_suite = "traffic";
 
-constexpr const char* usual_methods =
-    "saca,saca_at_t1,saca_paper,aeb,r157,cc_driver,fsm,rss,rss_steering,imitation,random,nothing,"
-    "first_"
-    "forecast,"
-    "newest_forecast,going_on_atlas,beliefs_atlas,beliefs_rolled_out,oracle";
-
 json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
   json out = run.meta;
   const std::string head = "suite." + fs::path(options.name).filename().string() + ".";
@@ -174,15 +168,6 @@ bool thinks(const CLI::App& line) {
   return line.count("--memory") > 0 || line.count("--llm") > 0 || line.count("--untuned") > 0;
 }
 
-/// The usual methods, and SACA without what it was given.
-std::string usual_with(const ThinkingOptions& thinking) {
-  std::string methods = "saca";
-  methods += thinking.memory.empty() ? "" : ",saca_no_memory";
-  methods += thinking.model == "off" ? "" : ",saca_no_model";
-  methods += thinking.untuned.empty() ? "" : ",saca_untuned";
-  return methods + std::string(usual_methods).substr(std::string_view("saca").size());
-}
-
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
 int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
   for (const char* const name : {"--count", "--split", "--test-log", "--seed", "--exact",
@@ -245,7 +230,7 @@ int run(const CLI::App& line, SuiteCommand options) {
     return success;
   }
   if (line.count("--methods") == 0) {
-    suite.methods = usual_with(suite.thinking);
+    suite.methods = suites::usual_methods(suite.thinking);
   }
   const auto methods =
       methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger);
@@ -292,7 +277,7 @@ void add_suite(CLI::App& line, int& exit_code) {
       "Run methods in closed loop over many encounters, paired, or over what a regulation asks "
       "(fmvss127, r152); can be interrupted");
   const auto options = std::make_shared<SuiteCommand>();
-  options->suite.methods = usual_methods;
+  options->suite.methods = suites::usual_methods({});
   add_suite_options(*command, options->suite);
   add_untuned_option(*command, options->suite.thinking);
   command

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "apps/saca/json_output.h"
 #include "apps/saca/pictures.h"
@@ -23,10 +22,6 @@ using eval::MethodRun;
 using eval::SuiteRow;
 
 constexpr std::size_t gallery_size = 12;
-
-std::string share_of(const Estimate& estimate) {
-  return estimate.n == 0 ? "-" : fmt::format("{:.1f}", 100.0 * estimate.value);
-}
 
 std::string title_of(const std::string& method) {
   return std::string(eval::find_method(method)->title);
@@ -145,8 +140,8 @@ report::PageTable all_figures(const SuiteResult& result) {
          .cells = {with_interval(one.harm, 4), with_interval(one.regret, 4),
                    with_interval(one.published_regret, 4),
                    one.over_aeb.n == 0 ? "-" : with_interval(one.over_aeb, 4),
-                   fmt::format("{:.2f}", one.collision_loss.value), share_of(one.contact),
-                   share_of(one.right), share_of(one.worse_than_aeb), share_of(one.needless),
+                   fmt::format("{:.2f}", one.collision_loss.value), percent_of(one.contact),
+                   percent_of(one.right), percent_of(one.worse_than_aeb), percent_of(one.needless),
                    one.false_trigger_loss ? fmt::format("{:.3f}", one.false_trigger_loss->value)
                                           : "-"},
          .shades = {},
@@ -319,87 +314,7 @@ std::vector<report::GalleryCard> gallery_of(const SuiteRun& run,
   return cards;
 }
 
-std::vector<const SuiteRow*> rows_of(const SuiteRun& run, const std::string& family) {
-  std::vector<const SuiteRow*> found;
-  for (const SuiteRow& row : run.rows) {
-    if (family.empty() || row.family == family) {
-      found.push_back(&row);
-    }
-  }
-  return found;
-}
-
 }  // namespace
-
-SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
-  SuiteResult result;
-  const auto aeb = index_of(run.methods, "aeb");
-  std::set<std::string> families;
-  for (const SuiteRow& row : run.rows) {
-    result.faults += row.fault.empty() ? 0 : 1;
-    families.insert(row.family);
-  }
-  result.all = eval::suite_figures(rows_of(run, ""), run.methods, aeb, seed);
-  for (const MethodFigures& one : result.all) {
-    result.method_faults += one.faults;
-  }
-  for (const std::string& family : families) {
-    result.families[family] = eval::suite_figures(rows_of(run, family), run.methods, aeb, seed);
-  }
-  return result;
-}
-
-std::string with_interval(const Estimate& estimate, int digits, double factor) {
-  return estimate.n == 0
-             ? "-"
-             : fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * estimate.value, digits,
-                           factor * estimate.low, digits, factor * estimate.high, digits);
-}
-
-void add_estimate(nlohmann::json& out, const std::string& name, const Estimate& estimate) {
-  if (estimate.n == 0) {
-    return;
-  }
-  out[name] = estimate.value;
-  out[name + ".lo"] = estimate.low;
-  out[name + ".hi"] = estimate.high;
-  out[name + ".n"] = estimate.n;
-}
-
-std::vector<std::string> footnotes_of(const nlohmann::json& meta) {
-  std::vector<std::string> lines;
-  for (const auto& [key, value] : meta.items()) {
-    lines.push_back(key.substr(key.find('.') + 1) + ": " + value.get<std::string>());
-  }
-  return lines;
-}
-
-DriverFigures driver_figures(const SuiteRun& run) {
-  DriverFigures figures;
-  figures.agreement.resize(run.methods.size());
-  int succeeded = 0;
-  for (const SuiteRow& row : run.rows) {
-    if (!row.fault.empty() || !row.driver) {
-      continue;
-    }
-    ++figures.count;
-    figures.harm += row.driver->harm;
-    figures.met += row.driver->met ? 1 : 0;
-    figures.braked += row.driver->brakes ? 1 : 0;
-    figures.steered += row.driver->steers != 0 ? 1 : 0;
-    if (!row.driver->met) {
-      ++succeeded;
-      for (std::size_t m = 0; m < run.methods.size(); ++m) {
-        figures.agreement[m] += eval::agrees(*row.driver, row.risk.runs[m].plan) ? 1.0 : 0.0;
-      }
-    }
-  }
-  figures.harm /= std::max(1, figures.count);
-  for (double& agreement : figures.agreement) {
-    agreement /= std::max(1, succeeded);
-  }
-  return figures;
-}
 
 report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
                           const SuiteCommandOptions& options) {

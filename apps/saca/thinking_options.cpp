@@ -18,10 +18,4 @@ void add_untuned_option(CLI::App& command, ThinkingOptions& options) {
                      "As --llm: a model without fine-tuning, for the methods ..._untuned");
 }
 
-std::string thinking_text(const ThinkingOptions& thinking) {
-  return (thinking.memory.empty() ? "" : " --memory " + thinking.memory) +
-         (thinking.model == "off" ? "" : " --llm " + thinking.model) +
-         (thinking.untuned.empty() ? "" : " --untuned " + thinking.untuned);
-}
-
 }  // namespace saca::app

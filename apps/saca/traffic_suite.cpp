@@ -11,10 +11,10 @@
 
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/thresholds_options.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/suite_page.h"
+#include "saca/lab/suites/thresholds_text.h"
 
 namespace saca::app {
 namespace {
@@ -93,7 +93,7 @@ json traffic_figures(const WatchedTraffic& traffic, const TrafficWatch& options)
   json out{
       {"meta.command", fmt::format("saca suite traffic --data{} --count {} --seed {} --car {}{}",
                                    folders, options.count, options.seed, options.car,
-                                   thresholds_arguments(options.thresholds))},
+                                   suites::thresholds_arguments(options.thresholds))},
       {"meta.seed", std::to_string(options.seed)},
       {"meta.n", std::to_string(traffic.rows.size())},
       {"meta.car", options.car},

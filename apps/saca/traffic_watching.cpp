@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "apps/saca/settings.h"
-#include "apps/saca/thresholds_options.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/journal.h"
@@ -24,6 +23,7 @@
 #include "saca/lab/long_work/progress.h"
 #include "saca/lab/recordings/hundred_car_file.h"
 #include "saca/lab/recordings/pack.h"
+#include "saca/lab/suites/thresholds_text.h"
 
 namespace saca::app {
 namespace {
@@ -313,8 +313,8 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
       fmt::format("saca {} suite traffic, {}, seed {}, count {}, {}, danger from {} and {} m/s^2 "
                   "on, data {:016x}",
                   SACA_VERSION, options.car, options.seed, options.count,
-                  thresholds_text(options.thresholds), eval::hard_braking, eval::hard_steering,
-                  found.hash.value()));
+                  suites::thresholds_text(options.thresholds), eval::hard_braking,
+                  eval::hard_steering, found.hash.value()));
   if (!journal.has_value()) {
     return journal.error();
   }

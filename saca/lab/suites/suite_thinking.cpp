@@ -1,14 +1,11 @@
-#include "apps/saca/suite_thinking.h"
+#include "saca/lab/suites/suite_thinking.h"
 
 #include <fmt/core.h>
 
 #include <utility>
 #include <vector>
 
-#include "apps/saca/model.h"
-#include "saca/lab/long_work/interrupt.h"
-
-namespace saca::app {
+namespace saca::suites {
 namespace {
 
 Result<std::vector<memory::Store>> copies_of(const std::string& file,
@@ -25,7 +22,7 @@ Result<std::vector<memory::Store>> copies_of(const std::string& file,
 }
 
 /// Differs between copies that somebody wrote between.
-Result<std::string> text_of(const std::vector<memory::Store>& copies) {
+Result<std::string> text_of_copies(const std::vector<memory::Store>& copies) {
   std::vector<std::uint64_t> digests;
   for (const memory::Store& copy : copies) {
     const auto digest = copy.digest();
@@ -44,38 +41,24 @@ Result<std::string> text_of(const std::vector<memory::Store>& copies) {
 }  // namespace
 
 Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions& options,
-                                                           const Places& places,
+                                                           const OpenModel& open_model,
                                                            const std::vector<memory::MadeWith>& car,
                                                            int threads, Clock& clock) {
   std::unique_ptr<SuiteThinking> thinking(new SuiteThinking());
   if (!options.memory.empty()) {
-    auto copies = copies_of(options.memory, car, threads);
-    if (!copies.has_value()) {
-      return copies.error();
+    if (auto problem = thinking->open_memory(options.memory, car, threads)) {
+      return *std::move(problem);
     }
-    std::vector<memory::Store> stores = std::move(copies).value();
-    auto text = text_of(stores);
-    if (!text.has_value()) {
-      return text.error();
-    }
-    thinking->memory_text_ = std::move(text).value();
-    thinking->experience_ = std::make_unique<const memory::Experience>(stores.front().experience());
-    thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(stores));
   }
   const auto open_shared = [&](const std::string& choice, const char* option,
                                std::unique_ptr<language_model::LanguageModel>& model,
                                std::unique_ptr<language_model::SharedModel>& shared) {
-    auto opened = open_needed_model(places, choice, runtime::Pace::lockstep, clock, option);
+    auto opened = open_model(choice, option);
     if (!opened.has_value()) {
       return std::optional(opened.error());
     }
-    if (thinking->interrupt_ == nullptr) {
-      long_work::watch_for_interrupt();
-      thinking->interrupt_ = std::make_unique<long_work::InterruptStop>();
-    }
     model = std::move(opened).value();
-    shared =
-        std::make_unique<language_model::SharedModel>(*model, clock, thinking->interrupt_->token());
+    shared = std::make_unique<language_model::SharedModel>(*model, clock, thinking->interrupt());
     return std::optional<Error>();
   };
   if (options.model != "off") {
@@ -90,6 +73,32 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
     }
   }
   return thinking;
+}
+
+std::optional<Error> SuiteThinking::open_memory(const std::string& file,
+                                                const std::vector<memory::MadeWith>& car,
+                                                int threads) {
+  auto copies = copies_of(file, car, threads);
+  if (!copies.has_value()) {
+    return copies.error();
+  }
+  std::vector<memory::Store> stores = std::move(copies).value();
+  auto text = text_of_copies(stores);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  memory_text_ = std::move(text).value();
+  experience_ = std::make_unique<const memory::Experience>(stores.front().experience());
+  memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(stores));
+  return std::nullopt;
+}
+
+std::stop_token SuiteThinking::interrupt() {
+  if (interrupt_ == nullptr) {
+    long_work::watch_for_interrupt();
+    interrupt_ = std::make_unique<long_work::InterruptStop>();
+  }
+  return interrupt_->token();
 }
 
 SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
@@ -116,4 +125,4 @@ std::optional<std::string> SuiteThinking::model_text() const {
   return shared_ ? std::optional(shared_->description()) : std::nullopt;
 }
 
-}  // namespace saca::app
+}  // namespace saca::suites

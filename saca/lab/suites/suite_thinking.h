@@ -1,19 +1,21 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <vector>
 
-#include "apps/saca/places.h"
-#include "apps/saca/thinking_options.h"
 #include "saca/base/core/lending_pool.h"
 #include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/suites/thinking_options.h"
 #include "saca/runtime/planes.h"
 #include "saca/thinking/language_model/shared_model.h"
 #include "saca/thinking/memory/experience.h"
 #include "saca/thinking/memory/store.h"
 
-namespace saca::app {
+namespace saca::suites {
 
 /// What SACA thinks with while many encounters are run on several threads: one language model for
 /// all, one without fine-tuning where it is wanted, and for each thread a copy of the memory bank
@@ -21,13 +23,20 @@ namespace saca::app {
 /// nothing is learnt, and no two questions are put at once.
 class SuiteThinking {
  public:
-  /// Signals are watched for from here on: an interrupt withdraws questions to the model.
-  /// @param clock    outlives this
+  /// Opens a model in lockstep.
+  /// @param choice  as `--llm` takes it
+  /// @param option  that named it, for messages
+  using OpenModel = std::function<Result<std::unique_ptr<language_model::LanguageModel>>(
+      const std::string& choice, const char* option)>;
+
+  /// Where there is a model, signals are watched for from here on: an interrupt withdraws questions
+  /// to it.
+  /// @param clock    that models' deadlines are on; outlives this
   /// @param car      that asks memory (encounter::made_with)
   /// @param threads  that think at once at most, >= 1
   /// @return         an error where memory or model is not there: a row without it would be another
   [[nodiscard]] static Result<std::unique_ptr<SuiteThinking>> open(
-      const ThinkingOptions& options, const Places& places,
+      const ThinkingOptions& options, const OpenModel& open_model,
       const std::vector<memory::MadeWith>& car, int threads, Clock& clock);
 
   /// What one encounter is run with, until it is let go: `setup` with memory and model.
@@ -56,6 +65,12 @@ class SuiteThinking {
  private:
   SuiteThinking() = default;
 
+  [[nodiscard]] std::optional<Error> open_memory(const std::string& file,
+                                                 const std::vector<memory::MadeWith>& car,
+                                                 int threads);
+  /// The interrupt that withdraws questions, watched for from the first call on.
+  [[nodiscard]] std::stop_token interrupt();
+
   std::unique_ptr<LendingPool<memory::Store>> memories_;
   std::unique_ptr<const memory::Experience> experience_;
   std::optional<std::string> memory_text_;
@@ -66,4 +81,4 @@ class SuiteThinking {
   std::unique_ptr<language_model::SharedModel> untuned_;
 };
 
-}  // namespace saca::app
+}  // namespace saca::suites

@@ -1,65 +1,24 @@
-#include "apps/saca/table_figures.h"
+#include "saca/lab/paper_comparison/table_page.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
 
-#include "apps/saca/suite_pages.h"
+#include "saca/lab/eval/methods.h"
+#include "saca/lab/suites/estimates.h"
 
-namespace saca::app {
+namespace saca::paper_comparison {
 namespace {
 
 using eval::Estimate;
 using eval::MethodFigures;
-using eval::PaperTable;
-using eval::SuiteRow;
-using nlohmann::json;
-
-std::vector<MethodFigures> figures_of(const std::vector<const SuiteRow*>& rows,
-                                      const std::vector<std::string>& methods, std::uint64_t seed) {
-  return eval::suite_figures(rows, methods, index_of(methods, "aeb"), seed);
-}
-
-/// The paper's filter: was the model asked, and did each of its replies come to its end before the
-/// trigger that it was about?
-bool is_in_time(const eval::MethodRun& run) {
-  return run.thinking && run.thinking->asked > 0 && run.thinking->ended == run.thinking->asked;
-}
+using suites::with_interval;
 
 std::string false_triggers(const MethodFigures& one) {
   return with_interval(one.false_trigger_loss.value_or(Estimate{}), 2);
 }
 
 }  // namespace
-
-std::string number_of(const PaperTable& table) {
-  return std::string(table.name.substr(std::string_view("table_").size()));
-}
-
-TableFigures table_figures(const PaperTable& table, const SuiteRun& run, std::size_t few,
-                           std::uint64_t seed) {
-  TableFigures figures{.table = &table, .few = {}, .all = {}, .in_time = {}, .page = {}};
-  std::vector<const SuiteRow*> rows;
-  for (const SuiteRow& row : run.rows) {
-    rows.push_back(&row);
-  }
-  figures.all = figures_of(rows, run.methods, seed);
-  figures.in_time.resize(run.methods.size());
-  for (std::size_t m = 0; m < run.methods.size(); ++m) {
-    std::vector<const SuiteRow*> answered;
-    std::copy_if(rows.begin(), rows.end(), std::back_inserter(answered), [&](const SuiteRow* row) {
-      return row->fault.empty() && is_in_time(row->risk.runs[m]);
-    });
-    if (!answered.empty()) {
-      figures.in_time[m] = figures_of(answered, run.methods, seed)[m];
-    }
-  }
-  rows.resize(std::min(few, rows.size()));
-  figures.few = figures_of(rows, run.methods, seed);
-  return figures;
-}
 
 report::PageTable page_table(const TableFigures& figures) {
   const auto draws = [](const std::vector<MethodFigures>& of) {
@@ -151,44 +110,4 @@ report::PageTable replies_table(const std::vector<TimedModel>& timed) {
   return page;
 }
 
-void add_figures(json& out, const TableFigures& figures) {
-  const auto add_all = [&](const MethodFigures& one, const std::string& draws) {
-    const auto put = [&](const std::string& what, const Estimate& estimate) {
-      add_estimate(
-          out, fmt::format("tables.{}.{}.{}{}", number_of(*figures.table), one.method, what, draws),
-          estimate);
-    };
-    put("collision_loss", one.collision_loss);
-    put("harm", one.harm);
-    put("harm_over_aeb", one.over_aeb);
-    if (one.false_trigger_loss) {
-      put("false_trigger_loss", *one.false_trigger_loss);
-    }
-  };
-  for (std::size_t m = 0; m < figures.all.size(); ++m) {
-    add_all(figures.few[m], ".ten_draws");
-    add_all(figures.all[m], "");
-    if (const auto& in_time = figures.in_time[m]) {
-      add_estimate(out,
-                   fmt::format("tables.{}.{}.collision_loss.in_time", number_of(*figures.table),
-                               in_time->method),
-                   in_time->collision_loss);
-    }
-  }
-}
-
-void add_figures(json& out, const TimedModel& one) {
-  const std::string place =
-      fmt::format("tables.4.{}.{}.", number_of(*eval::find_paper_table(one.table)), one.key);
-  out[place + "asked"] = one.times.asked;
-  out[place + "done"] = one.times.done;
-  out[place + "ended"] = one.times.ended;
-  out[place + "in_time"] = one.times.in_time;
-  add_estimate(out, place + "tokens", one.times.tokens);
-  add_estimate(out, place + "seconds", one.times.seconds);
-  if (one.times.least_seconds) {
-    out[place + "least_seconds"] = *one.times.least_seconds;
-  }
-}
-
-}  // namespace saca::app
+}  // namespace saca::paper_comparison

@@ -1,0 +1,71 @@
+#include "saca/lab/suites/suite_result.h"
+
+#include <gmock/gmock.h>
+
+#include "saca/lab/suites/rows_for_test.h"
+
+namespace saca::suites::suite_result_test {
+namespace {
+
+using manoeuvre::PolicyId;
+
+TEST(SuiteResult, IsOfAllAndOfEachFamily) {
+  SuiteRun run = made_run({"saca", "aeb"},
+                          {made_row(0, "a", {0.2, 0.4}, 0.1), made_row(1, "a", {0.4, 0.4}, 0.1),
+                           made_row(2, "b", {0.0, 0.1}, 0.0), failed_row(3, "b", "no road")});
+  run.rows[2].risk.runs[0].fault = "threw";
+  const SuiteResult result = result_of(run, 1);
+  EXPECT_EQ(result.faults, 1);
+  EXPECT_EQ(result.method_faults, 1);
+  ASSERT_EQ(result.all.size(), 2U);
+  EXPECT_EQ(result.all[0].method, "saca");
+  EXPECT_NEAR(result.all[1].harm.value, 0.9 / 3.0, 1e-12);
+  ASSERT_EQ(result.families.size(), 2U);
+  const auto& of_a = result.families.at("a");
+  EXPECT_NEAR(of_a[0].harm.value, 0.3, 1e-12);
+  EXPECT_NEAR(of_a[0].regret.value, 0.2, 1e-12);
+  EXPECT_NEAR(of_a[0].over_aeb.value, -0.1, 1e-12);
+  EXPECT_EQ(result.families.at("b")[1].harm.n, 1);
+}
+
+TEST(SuiteResult, AFamilyOfWhichNothingCouldBePlayedHasNoFigures) {
+  const SuiteResult result = result_of(made_run({"aeb"}, {failed_row(0, "a", "no road")}), 1);
+  EXPECT_TRUE(result.all.empty());
+  EXPECT_TRUE(result.families.at("a").empty());
+  EXPECT_EQ(result.faults, 1);
+}
+
+// Three drivers: one braked and met nobody, one moved aside and met nobody, one was hit. Who always
+// brakes does as the first of the two did.
+TEST(DriverFigures, HoldMethodsAgainstThoseWhoMetNobody) {
+  SuiteRun run = made_run({"aeb", "nothing"},
+                          {made_row(0, "a", {0.0, 0.0}, 0.0), made_row(1, "a", {0.0, 0.0}, 0.0),
+                           made_row(2, "a", {0.0, 0.0}, 0.0), made_row(3, "a", {0.0, 0.0}, 0.0),
+                           failed_row(4, "a", "no road")});
+  for (eval::SuiteRow& row : run.rows) {
+    if (row.fault.empty()) {
+      row.risk.runs[1].plan = std::nullopt;
+    }
+  }
+  run.rows[0].driver = eval::DriverRow{.brakes = true};
+  run.rows[1].driver = eval::DriverRow{.steers = 1};
+  run.rows[2].driver = eval::DriverRow{.harm = 0.3, .met = "car", .impact_speed = 9.0};
+  run.rows[4].driver = eval::DriverRow{.harm = 1.0};
+  const DriverFigures figures = driver_figures(run);
+  EXPECT_EQ(figures.count, 3);
+  EXPECT_NEAR(figures.harm, 0.1, 1e-12);
+  EXPECT_EQ(figures.met, 1);
+  EXPECT_EQ(figures.braked, 1);
+  EXPECT_EQ(figures.steered, 1);
+  EXPECT_THAT(figures.agreement, testing::ElementsAre(0.5, 0.0));
+}
+
+TEST(DriverFigures, WithoutDriversAreNought) {
+  const DriverFigures figures = driver_figures(made_run({"aeb"}, {made_row(0, "a", {0.1}, 0.0)}));
+  EXPECT_EQ(figures.count, 0);
+  EXPECT_EQ(figures.harm, 0.0);
+  EXPECT_THAT(figures.agreement, testing::ElementsAre(0.0));
+}
+
+}  // namespace
+}  // namespace saca::suites::suite_result_test
