@@ -39,6 +39,41 @@ std::optional<Error> write(const family_samples::ShowcaseScene& one, const std::
                                  report::contact_sheet(sheet_of(one.oracle, one.scenario)));
 }
 
+/// What was found for all policies.
+struct Found {
+  json list = json::array();
+  int missing = 0;  ///< scenes that are wanted and were not found
+  bool interrupted = false;
+};
+
+/// Searches, writes and tells of what it finds, policy by policy.
+Result<Found> search_all(const family_samples::ShowcaseSearch& search,
+                         const std::vector<eval::Finding>& findings,
+                         const ShowcaseCommand& options) {
+  Found all;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    const auto found = family_samples::showcase_scenes(search, findings, policy);
+    if (!found.has_value()) {
+      return found.error();
+    }
+    if (!found.value()) {
+      all.interrupted = true;
+      break;
+    }
+    all.missing += family_samples::wanted(policy) - static_cast<int>(found.value()->size());
+    for (const family_samples::ShowcaseScene& one : *found.value()) {
+      if (const auto problem = write(one, options.output)) {
+        return *problem;
+      }
+      all.list.push_back(family_samples::json_of(one, policy));
+      if (!options.as_json) {
+        app::print("{}: {}\n", one.scenario.name, one.scenario.why);
+      }
+    }
+  }
+  return all;
+}
+
 int run(const ShowcaseCommand& options) {
   const auto source = open_suite(options.survey, "search-showcase");
   if (!source.has_value()) {
@@ -52,49 +87,31 @@ int run(const ShowcaseCommand& options) {
   if (!findings.has_value()) {
     return refused(findings.error());
   }
-  bool stopped = !findings.value();
-  const family_samples::ShowcaseSearch search{.source = &source.value().source,
-                                              .car = &source.value().inputs.car,
-                                              .harm = &source.value().inputs.harm,
-                                              .rule = options.rule,
-                                              .seed = options.seed,
-                                              .tries = options.tries,
-                                              .threads = options.survey.threads,
-                                              .display = progress_display()};
-  json list = json::array();
-  int missing = 0;
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (stopped) {
-      break;
-    }
-    const auto found = family_samples::showcase_scenes(search, *findings.value(), policy);
-    if (!found.has_value()) {
-      return refused(found.error());
-    }
-    stopped = !found.value();
-    if (stopped) {
-      break;
-    }
-    missing += family_samples::wanted(policy) - static_cast<int>(found.value()->size());
-    for (const family_samples::ShowcaseScene& one : *found.value()) {
-      if (const auto problem = write(one, options.output)) {
-        return refused(*problem);
-      }
-      list.push_back(family_samples::json_of(one, policy));
-      if (!options.as_json) {
-        app::print("{}: {}\n", one.scenario.name, one.scenario.why);
-      }
-    }
+  const DrawnSuite& suite = source.value();
+  const auto found = findings.value() ? search_all({.source = &suite.source,
+                                                    .car = &suite.inputs.car,
+                                                    .harm = &suite.inputs.harm,
+                                                    .rule = options.rule,
+                                                    .seed = options.seed,
+                                                    .tries = options.tries,
+                                                    .threads = options.survey.threads,
+                                                    .display = progress_display()},
+                                                   *findings.value(), options)
+                                      : Result(Found{.interrupted = true});
+  if (!found.has_value()) {
+    return refused(found.error());
   }
-  if (stopped) {
+  const Found& all = found.value();
+  if (all.interrupted) {
     complain("interrupted; the survey goes on where it stopped when the same command is given");
     return was_interrupted;
   }
   if (options.as_json) {
-    app::print_json(json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", list}});
-  } else if (missing > 0) {
+    app::print_json(
+        json{{"schema", "saca.showcase/1"}, {"missing", all.missing}, {"found", all.list}});
+  } else if (all.missing > 0) {
     app::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
-               missing);
+               all.missing);
   }
   return success;
 }

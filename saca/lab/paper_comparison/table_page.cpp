@@ -18,6 +18,32 @@ std::string false_triggers(const MethodFigures& one) {
   return with_interval(one.false_trigger_loss.value_or(Estimate{}), 2);
 }
 
+report::PageTable::Row published_row(const eval::PublishedRow& row) {
+  return {.name = fmt::format("published: {}", row.title),
+          .explanation = {},
+          .cells = {fmt::format("{:.2f}", row.collision_loss), "-", "-",
+                    fmt::format("{:.2f}", row.false_trigger_loss), "-", "-"},
+          .shades = {}};
+}
+
+report::PageTable::Row our_row(const TableFigures& figures, std::size_t method) {
+  const MethodFigures& one = figures.all[method];
+  const eval::MethodInfo& info = *eval::find_method(one.method);
+  const auto& in_time = figures.in_time[method];
+  return {.name = std::string(info.title),
+          .explanation = std::string(info.what),
+          .link = figures.page,
+          .cells = {with_interval(figures.few[method].collision_loss, 2),
+                    with_interval(one.collision_loss, 2),
+                    in_time ? fmt::format("{}, n = {}", with_interval(in_time->collision_loss, 2),
+                                          in_time->collision_loss.n)
+                            : "-",
+                    false_triggers(figures.few[method]), false_triggers(one),
+                    with_interval(one.over_aeb, 4)},
+          .shades = {},
+          .faded = info.knows_truth};
+}
+
 }  // namespace
 
 report::PageTable page_table(const TableFigures& figures) {
@@ -39,29 +65,12 @@ report::PageTable page_table(const TableFigures& figures) {
                                 .axis_unit = "-",
                                 .rows = {}}};
   for (const eval::PublishedRow& row : figures.table->published) {
-    page.rows.push_back({.name = fmt::format("published: {}", row.title),
-                         .explanation = {},
-                         .cells = {fmt::format("{:.2f}", row.collision_loss), "-", "-",
-                                   fmt::format("{:.2f}", row.false_trigger_loss), "-", "-"},
-                         .shades = {}});
+    page.rows.push_back(published_row(row));
   }
   for (std::size_t m = 0; m < figures.all.size(); ++m) {
     const MethodFigures& one = figures.all[m];
     const eval::MethodInfo& info = *eval::find_method(one.method);
-    const auto& in_time = figures.in_time[m];
-    page.rows.push_back(
-        {.name = std::string(info.title),
-         .explanation = std::string(info.what),
-         .link = figures.page,
-         .cells = {with_interval(figures.few[m].collision_loss, 2),
-                   with_interval(one.collision_loss, 2),
-                   in_time ? fmt::format("{}, n = {}", with_interval(in_time->collision_loss, 2),
-                                         in_time->collision_loss.n)
-                           : "-",
-                   false_triggers(figures.few[m]), false_triggers(one),
-                   with_interval(one.over_aeb, 4)},
-         .shades = {},
-         .faded = info.knows_truth});
+    page.rows.push_back(our_row(figures, m));
     page.chart->rows.push_back({.name = std::string(info.title),
                                 .looks = info.knows_truth ? "fill-grey" : "fill-blue",
                                 .note = fmt::format("{:.2f}", one.collision_loss.value),

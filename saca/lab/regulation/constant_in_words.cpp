@@ -83,8 +83,7 @@ std::vector<std::string> constant_in_words(const RegulationRun& run) {
   if (helped.all > 0) {
     lines.front() += fmt::format(
         " Where the driver brakes one second after a warning, it {}: nobody is warned before T1, "
-        "and "
-        "then the driver comes too late.",
+        "and then the driver comes too late.",
         failed_in_words(helped));
   }
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {

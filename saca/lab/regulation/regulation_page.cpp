@@ -135,8 +135,7 @@ report::SuitePage page_of(const RegulationRun& run) {
       run.cells.size(), run.cars.size(), surface.grip, surface.source));
   page.lines.push_back(
       fmt::format("Who gets by without braking by {:.1f} m/s2 at least has not done what the text "
-                  "asks ({}); who "
-                  "brakes and steers too has, and the cell names the policy.",
+                  "asks ({}); who brakes and steers too has, and the cell names the policy.",
                   run.regulation.least_braking, run.regulation.least_braking_source));
   page.tables.push_back(summary_of(run));
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
