@@ -2,128 +2,85 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
 
 #include "apps/saca/json_output.h"
+#include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
-#include "apps/saca/regulation_page.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/suite_running.h"
-#include "saca/base/core/file.h"
-#include "saca/base/core/units.h"
+#include "saca/lab/eval/regulation_file.h"
 #include "saca/lab/long_work/output_file.h"
+#include "saca/lab/regulation/regulation_json.h"
+#include "saca/lab/regulation/regulation_page.h"
+#include "saca/lab/regulation/regulation_text.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using regulation::RegulationRun;
 
-void add(json& out, const std::string& place, const PassCount& sum) {
-  out[place + "passed"] = sum.passed;
-  out[place + "passed.n"] = sum.all;
-  out[place + "passed_share"] = static_cast<double>(sum.passed) / sum.all;
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) {
+    words.push_back(word);
+  }
+  return words;
 }
 
-template <class T>
-json value_of(const std::optional<T>& value) {
-  return value ? json(*value) : json();
-}
-
-json json_of(const RegulationRun& run, std::size_t car, std::size_t cell, std::size_t method) {
-  const RegulationResult& result = run.at(car, cell, method);
-  const eval::RegulationCell& of = run.cells[cell];
-  const eval::RegulationRow& row = run.row_of(cell);
-  json out{{"row", row.name},
-           {"paragraph", row.paragraph},
-           {"car", run.cars[car]},
-           {"method", run.methods[method]},
-           {"speed_kmh", to_kmh(of.speed)},
-           {"manual_braking", row.manual_braking},
-           {"limit", eval::name(row.limit)},
-           {"verdict", eval::name(result.judged.verdict)},
-           {"passed", result.judged.passed()},
-           {"impact_speed_mps", result.judged.impact_speed},
-           {"peak_deceleration_mps2", result.judged.peak_deceleration},
-           {"acted_at_s", value_of(result.acted_at)},
-           {"policy", result.plan ? json(manoeuvre::name(result.plan->policy)) : json()}};
-  if (of.headway) {
-    out["headway_m"] = *of.headway;
-    out["lead_deceleration_g"] = *of.deceleration / from_g(1.0);
+/// @return  nullopt: interrupted
+Result<std::optional<RegulationRun>> play(const RegulationOptions& options,
+                                          const std::vector<std::string>& methods) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return places.error();
   }
-  if (of.impact_speed) {
-    out["allowed_impact_speed_mps"] = *of.impact_speed;
+  auto file = eval::load_regulation(regulation_path(places.value(), options.name));
+  if (!file.has_value()) {
+    return file.error();
   }
-  if (row.limit == eval::LimitKind::deceleration) {
-    out["allowed_deceleration_mps2"] = row.peak_deceleration;
+  auto imitators = suites::imitators_of(methods, places.value().root / "models");
+  if (!imitators.has_value()) {
+    return imitators.error();
   }
-  if (!result.fault.empty()) {
-    out["fault"] = result.fault;
+  auto chosen = regulation::with_rows(std::move(file).value(), words_of(options.rows));
+  if (!chosen.has_value()) {
+    return Error{chosen.error().code, "--rows: " + chosen.error().message};
   }
-  return out;
-}
-
-json json_of(const RegulationRun& run) {
-  json out = run.meta;
-  const std::string head = "suite." + run.regulation.name + ".";
-  json cells = json::array();
-  for (std::size_t m = 0; m < run.methods.size(); ++m) {
-    const std::string place = head + run.methods[m] + ".";
-    const PassCount all = passed_by(run, {.method = m});
-    add(out, place, all);
-    out[place + "faults"] = all.faults;
-    out[place + "worst_impact_mps"] = all.worst;
-    for (std::size_t k = 0; k < run.cars.size(); ++k) {
-      add(out, place + run.cars[k] + ".", passed_by(run, {.method = m, .car = k}));
+  RegulationRun run =
+      regulation::tests_of(std::move(chosen).value(), words_of(options.cars), methods);
+  run.meta = {{"meta.command",
+               fmt::format("saca suite {} --methods {} --car {}{}", options.name, options.methods,
+                           options.cars, options.rows.empty() ? "" : " --rows " + options.rows)},
+              {"meta.n", std::to_string(run.cars.size() * run.cells.size())},
+              {"meta.source", run.regulation.source},
+              {"meta.version", SACA_VERSION}};
+  std::vector<std::unique_ptr<const PlanesOfCar>> planes;
+  std::vector<regulation::TestedCar> cars;
+  for (const std::string& name : run.cars) {
+    auto car = open_planes(name);
+    if (!car.has_value()) {
+      return car.error();
     }
-    for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
-      add(out, place + run.regulation.rows[r].name + ".", passed_by(run, {.method = m, .row = r}));
-    }
-    for (std::size_t k = 0; k < run.cars.size(); ++k) {
-      for (std::size_t i = 0; i < run.cells.size(); ++i) {
-        cells.push_back(json_of(run, k, i, m));
-      }
-    }
+    planes.push_back(std::move(car).value());
+    const PlanesOfCar& of_car = *planes.back();
+    cars.push_back({&of_car.inputs.car, &of_car.setup, &of_car.inputs.intent});
   }
-  for (const RegulationRun& other : run.elsewhere) {
-    add(out, head + "aeb." + other.regulation.surfaces[other.regulation.surface].name + ".",
-        passed_by(other, {.method = 0}));
-  }
-  out[head + "n"] = run.cars.size() * run.cells.size();
-  out[head + "cells"] = std::move(cells);
-  return out;
-}
-
-void print(const RegulationRun& run) {
-  app::print("{}: {} tests with each of {} cars; tests passed\n\n{:22}", run.regulation.title,
-             run.cells.size(), run.cars.size(), "row");
-  for (const std::string& method : run.methods) {
-    app::print(" {:>20}", method);
-  }
-  app::print("\n");
-  const auto line = [&](const std::string& name, std::optional<std::size_t> car,
-                        std::optional<std::size_t> row) {
-    app::print("{:22}", name);
-    for (std::size_t m = 0; m < run.methods.size(); ++m) {
-      const PassCount sum = passed_by(run, {.method = m, .car = car, .row = row});
-      app::print(" {:>20}", fmt::format("{} of {}", sum.passed, sum.all));
-    }
-    app::print("\n");
-  };
-  for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
-    line(run.regulation.rows[r].name, std::nullopt, r);
-  }
-  app::print("\n");
-  for (std::size_t k = 0; k < run.cars.size(); ++k) {
-    line(run.cars[k], k, std::nullopt);
-  }
-  line("all", std::nullopt, std::nullopt);
-  app::print("\n");
-  for (const std::string& sentence : constant_in_words(run)) {
-    app::print("{}\n", sentence);
-  }
+  return regulation::played(std::move(run), cars,
+                            {imitators.value(), options.threads, progress_display()});
 }
 
 }  // namespace
+
+fs::path regulation_path(const Places& places, const std::string& name) {
+  return places.root / "data" / "protocols" / (name + ".toml");
+}
 
 int run_regulation(RegulationOptions options) {
   const auto methods = methods_from(options.methods == "all" ? "" : options.methods, {}, "");
@@ -141,7 +98,7 @@ int run_regulation(RegulationOptions options) {
   if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  const auto ran = run_cells(options, methods.value());
+  const auto ran = play(options, methods.value());
   if (!ran.has_value()) {
     return refused(ran.error());
   }
@@ -161,15 +118,9 @@ int run_regulation(RegulationOptions options) {
   if (options.as_json) {
     app::print("{}", text);
   } else {
-    print(run);
-    app::print("\npage: {}\n", options.output);
+    app::print("{}\npage: {}\n", text_of(run), options.output);
   }
-  for (std::size_t m = 0; m < run.methods.size(); ++m) {
-    if (passed_by(run, {.method = m}).faults > 0) {
-      return some_failed;
-    }
-  }
-  return success;
+  return has_faults(run) ? some_failed : success;
 }
 
 }  // namespace saca::app

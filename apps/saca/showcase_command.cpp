@@ -1,6 +1,3 @@
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,11 +11,8 @@
 #include "apps/saca/settings.h"
 #include "apps/saca/surveying.h"
 #include "apps/saca/within.h"
-#include "saca/base/core/file.h"
-#include "saca/lab/eval/showcase.h"
-#include "saca/lab/long_work/interrupt.h"
+#include "saca/lab/family_samples/showcase_json.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/long_work/progress.h"
 
 namespace saca::app {
 namespace {
@@ -36,85 +30,48 @@ struct ShowcaseCommand {
   bool as_json = false;
 };
 
-/// How many scenes are wanted of each policy.
-int wanted(PolicyId policy) {
-  return policy == PolicyId::no_intervention ? 3 : 1;
-}
-
-struct ShowcasePage {
-  scenario::Scenario scenario;
-  eval::Oracle oracle;
-
-  /// How often the right policy meets somebody all the same.
-  [[nodiscard]] double contact_share() const {
-    return oracle.of(oracle.best()).expected.contact.share;
-  }
-};
-
-/// A sample as a scenario of its own.
-void give_name(ShowcasePage& one, PolicyId policy, std::size_t index) {
-  scenario::Scenario& scenario = one.scenario;
-  scenario.name = fmt::format("showcase_{}", manoeuvre::index(policy));
-  if (wanted(policy) > 1) {
-    scenario.name += fmt::format("_{}", static_cast<char>('a' + index));
-  }
-  scenario.title = fmt::format("{} is right: {}", name(policy), scenario.title);
-  scenario.why = why_right(one.oracle, policy);
-}
-
-/// Of the first candidates those that convince, and of these the ones in which the right policy
-/// meets somebody least often; fewer than wanted where too few do. nullopt: interrupted.
-Result<std::optional<std::vector<ShowcasePage>>> shown(const DrawnSuite& suite,
-                                                       const std::vector<eval::Finding>& findings,
-                                                       PolicyId policy,
-                                                       const ShowcaseCommand& options) {
-  constexpr double hardly_ever = 0.02;
-  std::vector<ShowcasePage> found;
-  const auto all = eval::candidates(findings, policy);
-  const auto count = std::min(all.size(), static_cast<std::size_t>(options.tries));
-  SteadyClock clock;
-  long_work::ProgressLine progress(fmt::format("{} under noise", name(policy)),
-                                   std::max(1, static_cast<int>(count)), clock, progress_display());
-  int good = 0;
-  for (std::size_t i = 0; i < count && good < wanted(policy); ++i) {
-    if (long_work::interrupted()) {
-      return std::optional<std::vector<ShowcasePage>>();
-    }
-    const auto sample = suite.source.sample(all[i].number);
-    if (!sample.has_value()) {
-      return sample.error();
-    }
-    const scenario::Scenario& scenario = sample.value().scenario;
-    ShowcasePage one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
-                                            {.time = *all[i].time,
-                                             .draws = options.rule.draws,
-                                             .seed = options.seed,
-                                             .threads = options.survey.threads,
-                                             .only_defaults = true})};
-    if (convinces(one.oracle, policy, options.rule)) {
-      good += one.contact_share() <= hardly_ever ? 1 : 0;
-      found.push_back(std::move(one));
-    }
-    progress.show(static_cast<int>(i) + 1, 0,
-                  fmt::format(" candidates, {} convince", found.size()));
-  }
-  std::stable_sort(found.begin(), found.end(), [](const ShowcasePage& a, const ShowcasePage& b) {
-    return a.contact_share() < b.contact_share();
-  });
-  found.resize(std::min(found.size(), static_cast<std::size_t>(wanted(policy))));
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    give_name(found[i], policy, i);
-  }
-  return std::optional(std::move(found));
-}
-
-std::optional<Error> write(const ShowcasePage& one, const std::string& output) {
+std::optional<Error> write(const family_samples::ShowcaseScene& one, const std::string& output) {
   const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
   if (auto problem = long_work::write_output(file, scenario::write_scenario(one.scenario))) {
     return problem;
   }
   return long_work::write_output(fs::path(output) / (one.scenario.name + ".svg"),
                                  report::contact_sheet(sheet_of(one.oracle, one.scenario)));
+}
+
+/// What was found for all policies.
+struct Found {
+  json list = json::array();
+  int missing = 0;  ///< scenes that are wanted and were not found
+  bool interrupted = false;
+};
+
+/// Searches, writes and tells of what it finds, policy by policy.
+Result<Found> search_all(const family_samples::ShowcaseSearch& search,
+                         const std::vector<eval::Finding>& findings,
+                         const ShowcaseCommand& options) {
+  Found all;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    const auto found = family_samples::showcase_scenes(search, findings, policy);
+    if (!found.has_value()) {
+      return found.error();
+    }
+    if (!found.value()) {
+      all.interrupted = true;
+      break;
+    }
+    all.missing += family_samples::wanted(policy) - static_cast<int>(found.value()->size());
+    for (const family_samples::ShowcaseScene& one : *found.value()) {
+      if (const auto problem = write(one, options.output)) {
+        return *problem;
+      }
+      all.list.push_back(family_samples::json_of(one, policy));
+      if (!options.as_json) {
+        app::print("{}: {}\n", one.scenario.name, one.scenario.why);
+      }
+    }
+  }
+  return all;
 }
 
 int run(const ShowcaseCommand& options) {
@@ -130,46 +87,31 @@ int run(const ShowcaseCommand& options) {
   if (!findings.has_value()) {
     return refused(findings.error());
   }
-  bool stopped = !findings.value();
-  json list = json::array();
-  int missing = 0;
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (stopped) {
-      break;
-    }
-    const auto found = shown(source.value(), *findings.value(), policy, options);
-    if (!found.has_value()) {
-      return refused(found.error());
-    }
-    stopped = !found.value();
-    if (stopped) {
-      break;
-    }
-    missing += wanted(policy) - static_cast<int>(found.value()->size());
-    for (const ShowcasePage& one : *found.value()) {
-      if (const auto problem = write(one, options.output)) {
-        return refused(*problem);
-      }
-      const eval::Margin margin = margin_of_best(one.oracle);
-      list.push_back({{"policy", manoeuvre::index(policy)},
-                      {"scenario", one.scenario.name},
-                      {"margin", margin.mean},
-                      {"margin_low", margin.low},
-                      {"why", one.scenario.why}});
-      if (!options.as_json) {
-        app::print("{}: {}\n", one.scenario.name, one.scenario.why);
-      }
-    }
+  const DrawnSuite& suite = source.value();
+  const auto found = findings.value() ? search_all({.source = &suite.source,
+                                                    .car = &suite.inputs.car,
+                                                    .harm = &suite.inputs.harm,
+                                                    .rule = options.rule,
+                                                    .seed = options.seed,
+                                                    .tries = options.tries,
+                                                    .threads = options.survey.threads,
+                                                    .display = progress_display()},
+                                                   *findings.value(), options)
+                                      : Result(Found{.interrupted = true});
+  if (!found.has_value()) {
+    return refused(found.error());
   }
-  if (stopped) {
+  const Found& all = found.value();
+  if (all.interrupted) {
     complain("interrupted; the survey goes on where it stopped when the same command is given");
     return was_interrupted;
   }
   if (options.as_json) {
-    app::print_json(json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", list}});
-  } else if (missing > 0) {
+    app::print_json(
+        json{{"schema", "saca.showcase/1"}, {"missing", all.missing}, {"found", all.list}});
+  } else if (all.missing > 0) {
     app::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
-               missing);
+               all.missing);
   }
   return success;
 }
