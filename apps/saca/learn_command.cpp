@@ -13,17 +13,16 @@
 #include "apps/saca/forecast_commands.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/learn_figures.h"
-#include "apps/saca/memory_commands.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "apps/saca/shipped_cases.h"
 #include "apps/saca/suite_running.h"
 #include "apps/saca/version.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/journal.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/formats/json_text.h"
+#include "saca/lab/banks/bank_files.h"
 #include "saca/lab/eval/curriculum.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
@@ -149,13 +148,13 @@ Result<std::vector<memory::Case>> first_cases(const LearnOptions& options, const
     return std::vector<memory::Case>();
   }
   if (!options.from.thinking.memory.empty()) {
-    auto bank = read_bank(options.from.thinking.memory);
+    auto bank = banks::read_bank(options.from.thinking.memory);
     if (!bank.has_value()) {
       return bank.error();
     }
     return std::move(bank).value().cases;
   }
-  return shipped_cases(school.planes->inputs.places);
+  return banks::shipped_cases(school.planes->inputs.places.root);
 }
 
 /// Makes the banks of all seeds, in the place of those that were there.
