@@ -1,16 +1,14 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
 #include "apps/saca/printing.h"
-#include "saca/base/core/file.h"
 #include "saca/lab/eval/forecast_fan.h"
+#include "saca/lab/forecast_study/fan_picture.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/report/scene_svg.h"
 
 namespace saca::app {
 namespace {
@@ -22,31 +20,6 @@ struct ShowCommand {
   double at = 0.0;  ///< [s]
   std::string output;
 };
-
-report::SceneView fan_view(const eval::ForecastFan& fan, const std::string& who,
-                           const std::string& encounter) {
-  const auto likely = std::count_if(fan.ways.begin(), fan.ways.end(),
-                                    [](const auto& way) { return way.probability >= 0.01; });
-  report::SceneView view{
-      .title = fmt::format("{}: what may come of {}, and what came", encounter, who),
-      .lines = {fmt::format(
-                    "At {:.1f} s {} likely, the thicker the likelier; on each, after 1, 2 and "
-                    "3 s, where it is with a half.",
-                    fan.seen.time, likely == 1 ? "1 way is" : fmt::format("{} ways are", likely)),
-                "Bodies are where they truly were, every quarter of a second."},
-      .badge = {},
-      .policy = {},
-      .scene = fan.seen,
-      .ego = fan.ego,
-      .others = fan.others,
-      .contacts = {},
-      .fan = {},
-      .shown_P = {}};
-  for (const eval::ForecastFan::Way& way : fan.ways) {
-    view.fan.push_back({way.probability, way.forecast.track, way.forecast.spread});
-  }
-  return view;
-}
 
 int show(ShowCommand options) {
   options.from.count = static_cast<int>(options.encounter) + 1;
@@ -62,18 +35,19 @@ int show(ShowCommand options) {
                          encounters.value().count, options.encounter));
     return bad_input;
   }
-  const auto played = played_encounter(encounters.value(), options.from, options.encounter);
+  const auto played = forecast_study::played_encounter(
+      encounters.value().at, {.seed = options.from.seed, .exact = options.from.exact},
+      options.encounter);
   if (!played.has_value()) {
     return refused(played.error());
   }
   const std::string name = fmt::format("{} {}", played.value().family, options.encounter);
-  const auto fan =
-      eval::forecast_fan(played.value().stage(encounters.value().inputs), options.who, options.at);
+  const auto fan = eval::forecast_fan(played.value().stage(perceiver_of(encounters.value().inputs)),
+                                      options.who, options.at);
   if (!fan.has_value()) {
     return refused({fan.error().code, fmt::format("{}: {}", name, fan.error().message)});
   }
-  constexpr report::SvgSize size{760.0, 250.0};
-  const std::string picture = report::scene_svg(fan_view(fan.value(), options.who, name), size);
+  const std::string picture = forecast_study::fan_picture(fan.value(), options.who, name);
   if (const auto problem = long_work::write_output(options.output, picture)) {
     return refused(*problem);
   }

@@ -11,14 +11,13 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
 #include "apps/saca/json_output.h"
-#include "apps/saca/memory_commands.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "apps/saca/shipped_cases.h"
 #include "apps/saca/suite_running.h"
 #include "apps/saca/version.h"
 #include "saca/base/core/journal.h"
+#include "saca/lab/banks/bank_files.h"
 #include "saca/lab/curricula/bank_place.h"
 #include "saca/lab/curricula/curriculum_json.h"
 #include "saca/lab/curricula/curriculum_text.h"
@@ -57,13 +56,13 @@ Result<std::vector<memory::Case>> first_cases(const LearnRequest& request, const
     return std::vector<memory::Case>();
   }
   if (!request.from.thinking.memory.empty()) {
-    auto bank = read_bank(request.from.thinking.memory);
+    auto bank = banks::read_bank(request.from.thinking.memory);
     if (!bank.has_value()) {
       return bank.error();
     }
     return std::move(bank).value().cases;
   }
-  return shipped_cases(places);
+  return banks::shipped_cases(places.root);
 }
 
 Result<Lessons> open_lessons(const LearnRequest& request) {

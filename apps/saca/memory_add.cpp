@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +10,8 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/printable.h"
+#include "saca/lab/banks/bank_changes.h"
+#include "saca/lab/banks/bank_files.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/thinking/memory/store.h"
 
@@ -43,14 +43,10 @@ int add_case(const AddOptions& options) {
     return nothing_to_decide;
   }
   const scenario::Scenario& scenario = inputs.value().scenario;
-  memory::Case one{.scene = eval::scene_at(scenario, inputs.value().car, *time.value()),
-                   .best = *options.policy,
-                   .review = options.why,
-                   .source = scenario.name,
-                   .origin = memory::Origin::expert,
-                   .trust = memory::Trust::unchecked};
-  one.plan = manoeuvre::default_plan(*options.policy, one.scene.ego.v_B.x);
-  auto store = open_to_add(options.file);
+  const memory::Case one =
+      banks::expert_case(eval::scene_at(scenario, inputs.value().car, *time.value()),
+                         {*options.policy, options.why, scenario.name});
+  auto store = banks::open_to_add(options.file);
   if (!store.has_value()) {
     return refused(store.error());
   }
@@ -59,12 +55,7 @@ int add_case(const AddOptions& options) {
   if (!learnt.has_value()) {
     return refused(learnt.error());
   }
-  using How = memory::Learnt::How;
-  const memory::Learnt& how = learnt.value();
-  app::print("{}: case {}{}; it is used where a rollout confirms it\n", memory.name(), how.id,
-             how.how == How::merged         ? " stands for it already"
-             : how.how == How::contradicted ? fmt::format(", which contradicts case {}", how.other)
-                                            : "");
+  app::print("{}", banks::text_of(learnt.value(), memory.name()));
   return success;
 }
 

@@ -1,28 +1,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
+#include <cstddef>
 
-#include "saca/base/core/result.h"
-#include "saca/thinking/memory/case.h"
-#include "saca/thinking/memory/store.h"
+#include "apps/saca/planes_making.h"
+#include "saca/lab/banks/case_tools.h"
 
 namespace saca::app {
 
-/// What `build` or `export` wrote.
-[[nodiscard]] Result<std::vector<memory::Case>> read_cases(const std::string& file);
-
-/// The bank that cases are added to; one that is not there is made, with its folder.
-[[nodiscard]] Result<memory::Store> open_to_add(const std::string& file);
-
-/// An existing bank and all its cases.
-struct ReadBank {
-  memory::Store store;
-  std::vector<memory::Case> cases;
-};
-/// To look must not make one: unreadable where there is none.
-[[nodiscard]] Result<ReadBank> read_bank(const std::string& file);
+/// What cases are worked out with there; the planes outlive it.
+[[nodiscard]] banks::CaseTools case_tools(const PlanesOfCar& planes, std::size_t draws);
 
 /// `saca memory add`.
 void add_memory_add(CLI::App& memory, int& exit_code);

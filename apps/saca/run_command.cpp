@@ -17,11 +17,11 @@
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "apps/saca/shipped_cases.h"
 #include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
+#include "saca/lab/banks/bank_files.h"
 #include "saca/lab/encounter/encounter.h"
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/encounter/provenance.h"
@@ -120,7 +120,7 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
   }
   auto store = std::make_shared<memory::Store>(std::move(opened).value());
   if (store->size() == 0 && !options.no_learning && !options.empty_memory) {
-    const auto cases = shipped_cases(inputs.places);
+    const auto cases = banks::shipped_cases(inputs.places.root);
     if (!cases.has_value()) {
       return cases.error();
     }

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "saca/lab/eval/forecast_score.h"
+
+namespace saca::forecast_study {
+
+/// Forecasts of one encounter held against what happened; of recorded traffic, of all drives that
+/// share road users.
+struct EncounterForecasts {
+  std::string family;   ///< or the site
+  std::string problem;  ///< why there are none; empty: nothing went wrong
+  std::vector<eval::ForecastSample> samples;
+};
+
+/// Of all encounters.
+struct ForecastStudy {
+  std::vector<EncounterForecasts> encounters;
+  std::vector<std::string> notes;  ///< on where they come from, in sentences
+};
+
+}  // namespace saca::forecast_study
