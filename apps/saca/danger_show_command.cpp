@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,11 +10,10 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/units.h"
-#include "saca/lab/learned_danger/net_inputs.h"
+#include "saca/lab/danger_study/beside_exact.h"
+#include "saca/lab/danger_study/weights.h"
 #include "saca/lab/learned_danger/point_mass.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/report/beside_exact.h"
-#include "saca/lab/report/value_map.h"
 
 namespace saca::app {
 namespace {
@@ -35,7 +33,7 @@ int show_danger(const DangerShowOptions& options) {
     complain(fmt::format("--output: want a name that ends in .png, got '{}'", options.output));
     return wrong_command_line;
   }
-  const auto weights = read_danger_network(options.weights);
+  const auto weights = danger_study::read_network(options.weights);
   if (!weights.has_value()) {
     return refused(weights.error());
   }
@@ -46,19 +44,11 @@ int show_danger(const DangerShowOptions& options) {
   if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  const learned_danger::PointMass& problem = exact.value().problem;
-  const auto learnt = [&](const danger::State& at) {
-    const std::array<learned_danger::SeenByNet, 1> seen{learned_danger::seen_by_net(problem, at)};
-    return danger::LookupResult{weights.value().joint_value(seen), 0.0, true};
-  };
-  const std::string& text = exact.value().text;
-  const auto picture =
-      report::beside_exact_png({.exact_name = report::problem_name(text).value_or(options.table),
-                                .other_name = fs::path(options.weights).filename().string(),
-                                .outline = report::obstacle_outline(text),
-                                .speeds = options.speeds_mps,
-                                .course = from_degrees(options.course_deg)},
-                               exact.value().value(), learnt);
+  const auto picture = danger_study::beside_exact_png(weights.value(), exact.value(),
+                                                      {.weights = options.weights,
+                                                       .table = options.table,
+                                                       .speeds = options.speeds_mps,
+                                                       .course = from_degrees(options.course_deg)});
   if (!picture.has_value()) {
     return refused(picture.error());
   }

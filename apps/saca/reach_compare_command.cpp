@@ -1,9 +1,5 @@
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,23 +9,16 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/within.h"
-#include "saca/base/core/file.h"
-#include "saca/base/core/units.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/report/authors_page.h"
-#include "saca/lab/verification/authors_comparison.h"
-#include "saca/thinking/danger/avoidance_case.h"
-#include "saca/thinking/danger/obstacle_frame.h"
+#include "saca/lab/reach_study/authors_report.h"
+#include "saca/lab/verification/authors_network.h"
 #include "saca/thinking/danger/value_file.h"
-#include "saca/thinking/danger/value_table.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-using verification::Agreement;
-using verification::AuthorsComparison;
+using reach_study::AuthorsRequest;
 
 struct CompareOptions {
   std::string file;
@@ -40,83 +29,6 @@ struct CompareOptions {
   bool as_json = false;
 };
 
-/// The network knows of one obstacle and of no motion of it.
-std::optional<Error> not_comparable(const std::string& file, const danger::Solution& solved) {
-  const auto problem = danger::parse_avoidance_case(solved.problem, file);
-  if (!problem.has_value()) {
-    return Error{Error::Code::malformed,
-                 file + ": want a solved case of avoidance; " + problem.error().message};
-  }
-  if (!solved.complete) {
-    return Error{Error::Code::out_of_range,
-                 fmt::format("{}: want a whole solution, got one that was stopped at {:.3g} s",
-                             file, solved.times.back())};
-  }
-  if (danger::view_of(solved).value_or(danger::View::edge) == danger::View::edge) {
-    std::string came;
-    for (const danger::Axis& axis : solved.grid.axes) {
-      came += (came.empty() ? "" : ", ") + axis.name;
-    }
-    return Error{Error::Code::malformed,
-                 fmt::format("{}: want values over x, y, course, speed or, seen from the ego, "
-                             "ahead, left, turned, speed, got {}",
-                             file, came)};
-  }
-  const double speed = problem.value().system.obstacle_speed;
-  if (speed != 0.0) {
-    return Error{Error::Code::out_of_range,
-                 fmt::format("{}: want an obstacle at rest, got one at {:g} m/s", file, speed)};
-  }
-  return std::nullopt;
-}
-
-std::vector<report::AuthorsView> views_asked_for(const CompareOptions& options) {
-  if (!options.speeds_mps.empty() || options.course_deg) {
-    std::vector<report::AuthorsView> views;
-    for (const double speed : options.speeds_mps.empty() ? std::vector{10.0} : options.speeds_mps) {
-      views.push_back({from_degrees(options.course_deg.value_or(0.0)), speed});
-    }
-    return views;
-  }
-  const double aslant = from_degrees(20.0);
-  return {{0.0, 5.0}, {0.0, 10.0}, {0.0, 18.0}, {aslant, 5.0}, {aslant, 18.0}};
-}
-
-json agreement_figures(const AuthorsComparison& found) {
-  const Agreement& all = found.all;
-  json all_of_them{{"reach.authors_net.n", all.states},
-                   {"reach.authors_net.n_unsafe", all.unsafe},
-                   {"reach.authors_net.n_outside", found.outside},
-                   {"reach.authors_net.sign_agreement", all.sign_agreement()},
-                   {"reach.authors_net.false_safe", all.false_safe_share()},
-                   {"reach.authors_net.false_alarm", all.false_alarm_share()}};
-  for (const auto& one : found.by_speed) {
-    const std::string at = fmt::format(".speed{:g}", one.speed);
-    all_of_them["reach.authors_net.false_safe" + at] = one.agreement.false_safe_share();
-    all_of_them["reach.authors_net.false_alarm" + at] = one.agreement.false_alarm_share();
-  }
-  return all_of_them;
-}
-
-void tell_agreement(const AuthorsComparison& found) {
-  const auto line = [](const std::string& head, const Agreement& agreement) {
-    app::print("{:>8} {:8} {:8} {:9.1f} % {:9.1f} % {:9.1f} %", head, agreement.states,
-               agreement.unsafe, 100.0 * agreement.sign_agreement(),
-               100.0 * agreement.false_safe_share(), 100.0 * agreement.false_alarm_share());
-  };
-  app::print("{:>8} {:>8} {:>8} {:>11} {:>11} {:>11}   mean value [m], solved and network\n", "m/s",
-             "states", "unsafe", "same sign", "false safe", "false alarm");
-  for (const auto& one : found.by_speed) {
-    line(fmt::format("{:g}", one.speed), one.agreement);
-    app::print("   {:6.1f} {:6.1f}\n", one.mean_solved, one.mean_network);
-  }
-  line("all", found.all);
-  app::print("\n");
-  if (found.outside > 0) {
-    app::print("{} states of the network's range lie outside the solution\n", found.outside);
-  }
-}
-
 int compare_values(const CompareOptions& options) {
   if (!is_png_or_html(options.output)) {
     return wrong_command_line;
@@ -125,7 +37,7 @@ int compare_values(const CompareOptions& options) {
   if (!solved.has_value()) {
     return refused(solved.error());
   }
-  if (const auto problem = not_comparable(options.file, solved.value())) {
+  if (const auto problem = reach_study::why_not_comparable(solved.value(), options.file)) {
     return refused(*problem);
   }
   if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
@@ -135,31 +47,24 @@ int compare_values(const CompareOptions& options) {
   if (!network.has_value()) {
     return refused(network.error());
   }
-  const danger::ValueTable table(solved.value().grid,
-                                 snapshot(solved.value(), solved.value().times.size() - 1));
-  const danger::View view = danger::view_of(solved.value()).value_or(danger::View::obstacle);
-  const danger::ValueAt value = in_obstacle_frame(table, view);
-  const AuthorsComparison found = compare_with_authors(value, network.value());
-  const std::string& text = solved.value().problem;
-  const report::AuthorsPage page{.case_name = report::problem_name(text).value_or(options.file),
-                                 .network_name = fs::path(options.network).filename().string(),
-                                 .outline = report::obstacle_outline(text),
-                                 .views = views_asked_for(options)};
-  const auto made = fs::path(options.output).extension() == ".png"
-                        ? authors_png(page, value, network.value())
-                        : authors_page(page, value, network.value(), found);
-  if (!made.has_value()) {
-    return refused(made.error());
+  const bool as_picture = fs::path(options.output).extension() == ".png";
+  const auto report = reach_study::authors_report(
+      solved.value(), network.value(),
+      {.file = options.file,
+       .network_name = fs::path(options.network).filename().string(),
+       .views = reach_study::authors_views(options.speeds_mps, options.course_deg),
+       .format = as_picture ? AuthorsRequest::Format::picture : AuthorsRequest::Format::page});
+  if (!report.has_value()) {
+    return refused(report.error());
   }
-  auto problem = long_work::write_output(options.output, made.value());
-  if (problem) {
+  if (const auto problem = long_work::write_output(options.output, report.value().drawn)) {
     return refused(*problem);
   }
   if (options.as_json) {
-    app::print_json(agreement_figures(found));
+    app::print_json(reach_study::json_of(report.value().found));
     return success;
   }
-  tell_agreement(found);
+  app::print("{}", reach_study::text_of(report.value().found));
   app::print("Maps: {}\n", fs::absolute(options.output).string());
   return success;
 }

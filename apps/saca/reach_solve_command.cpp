@@ -1,171 +1,81 @@
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
-#include "apps/saca/reach_problem.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/stopped.h"
 #include "apps/saca/within.h"
-#include "saca/base/core/clock.h"
 #include "saca/base/core/names.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/levelset/solve.h"
-#include "saca/lab/long_work/interrupt.h"
-#include "saca/lab/long_work/output_file.h"
-#include "saca/lab/long_work/progress.h"
-#include "saca/thinking/danger/value_file.h"
+#include "saca/lab/reach_study/case_solution.h"
+#include "saca/lab/reach_study/solution_summary.h"
+#include "saca/thinking/danger/avoidance_case.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using danger::Solution;
-using levelset::Problem;
-using levelset::Scheme;
 
 struct SolveOptions {
   std::string name;
   std::string output;
   std::string differences = "weno5";
   std::string steps = "rk3";
-  Scheme scheme{.threads = usual_threads()};
+  levelset::Scheme scheme{.threads = usual_threads()};
   double memory_mib = 0.0;  // 0: what the machine has to spare
   bool without_error = false;
   bool as_json = false;
 };
 
-constexpr double mib = 1024.0 * 1024.0;
-
-/// What the system can give without swapping [MiB]; nullopt: it does not say.
-std::optional<double> memory_to_spare() {
-  std::ifstream file("/proc/meminfo");
-  std::string key;
-  for (double kib = 0.0; file >> key >> kib; file.ignore(80, '\n')) {
-    if (key == "MemAvailable:") {
-      return kib / 1024.0;
-    }
+/// A problem by its file's path, by the name of a shipped one (`data/reach`), or `air3d`.
+Result<levelset::Problem> find_problem(const std::string& name) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return places.error();
   }
-  return std::nullopt;
-}
-
-std::optional<Error> too_little_memory(const Problem& problem, const SolveOptions& options) {
-  const double needed = static_cast<double>(memory_needed(problem, options.scheme)) / mib;
-  const std::optional<double> there =
-      options.memory_mib > 0.0 ? options.memory_mib : memory_to_spare();
-  if (!there || needed <= *there) {
-    return std::nullopt;
+  if (name == "air3d") {
+    return levelset::air3d_problem(levelset::air3d_grid(101, 79, 100));
   }
-  return Error{Error::Code::out_of_range,
-               fmt::format("{}: {} cells take {:.0f} MiB, {} {:.0f} MiB; take fewer points or "
-                           "snapshots{}",
-                           options.name, num_cells(problem.grid), needed,
-                           options.memory_mib > 0.0 ? "--memory-mib allows" : "the machine has",
-                           *there, options.scheme.doubles ? ", or no --double" : "")};
-}
-
-/// What an earlier, stopped run of the same command left.
-Result<std::optional<Solution>> begun(const fs::path& part) {
-  std::error_code none;
-  if (!fs::exists(part, none)) {
-    return std::optional<Solution>();
+  const auto file = find_reach_case(places.value(), name);
+  if (!file.has_value()) {
+    return Error{file.error().code, file.error().message + ", or air3d"};
   }
-  auto there = danger::read_solved(part);
-  if (!there.has_value()) {
-    return there.error();
-  }
-  return std::optional(std::move(there).value());
-}
-
-void tell(const SolveOptions& options, const Solution& solved, double seconds) {
-  const std::vector<float> values = snapshot(solved, solved.times.size() - 1);
-  const auto unsafe =
-      std::count_if(values.begin(), values.end(), [](float v) { return v >= 0.0F; });
-  const double share = static_cast<double>(unsafe) / static_cast<double>(values.size());
-  if (options.as_json) {
-    const nlohmann::json all{{"schema", "saca.reach_solve/1"}, {"file", options.output},
-                             {"cells", values.size()},         {"times_s", solved.times},
-                             {"unsafe_share", share},          {"seconds", seconds}};
-    app::print_json(all);
-    return;
-  }
-  app::print("{}: {} cells, to {:g} s, {:.2f} % of them unsafe; {:.1f} s\n", options.output,
-             values.size(), solved.times.back(), 100.0 * share, seconds);
+  const auto found = danger::read_avoidance_case(file.value());
+  return found.has_value() ? levelset::avoidance_problem(found.value())
+                           : Result<levelset::Problem>(found.error());
 }
 
 int solve_case(const SolveOptions& options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refused(places.error());
-  }
-  const auto problem = find_problem(places.value(), options.name);
+  const auto problem = find_problem(options.name);
   if (!problem.has_value()) {
     return refused(problem.error());
   }
-  if (const auto too_little = too_little_memory(problem.value(), options)) {
-    return refused(*too_little);
-  }
-  const fs::path part = options.output + ".part";
-  auto before = begun(part);
-  if (!before.has_value()) {
-    return refused(before.error());
-  }
-  if (const auto wrong = long_work::why_outputs_unwritable({options.output})) {
-    return refused(*wrong);
-  }
-  if (auto wrong = long_work::make_folder_of(options.output)) {
-    return refused(*wrong);
-  }
-  std::error_code none;
-  if (fs::exists(options.output, none) && !fs::is_regular_file(options.output, none)) {
-    const bool is_folder = fs::is_directory(options.output, none);
-    return refused(
-        {Error::Code::unwritable,
-         options.output + (is_folder ? ": is a folder" : ": is no file") + ", want a file"});
-  }
-  long_work::watch_for_interrupt();
-  SteadyClock clock;
-  const Clock::Time start = clock.now();
-  const double horizon = problem.value().times.back();
-  constexpr int permille = 1'000;
-  const int remembered =
-      before.value() ? static_cast<int>(permille * before.value()->times.back() / horizon) : 0;
-  long_work::ProgressLine line(options.name, permille, clock, progress_display());
-  const auto solved = levelset::solve(
-      problem.value(), options.scheme, std::move(before).value(),
-      {.step =
-           [&](double tau) {
-             line.show(static_cast<int>(permille * tau / horizon), remembered, " per mille");
-             return !long_work::interrupted();
-           },
-       .keep = [&](const Solution& so_far) { return danger::write_solved(part, so_far); }});
+  const auto solved = reach_study::solve_case(
+      problem.value(),
+      {.name = options.name,
+       .output = options.output,
+       .scheme = options.scheme,
+       .memory_mib = options.memory_mib > 0.0 ? std::optional(options.memory_mib) : std::nullopt,
+       .display = progress_display()});
   if (!solved.has_value()) {
-    return refused({solved.error().code, options.name + ": " + solved.error().message});
+    return stopped(solved.error());
   }
-  if (!solved.value().complete) {
-    complain(fmt::format("interrupted after {:.3g} of {:g} s; the same command goes on from {}",
-                         solved.value().times.back(), horizon, part.string()));
-    return was_interrupted;
+  const reach_study::SolutionSummary summary =
+      reach_study::summary_of(options.output, solved.value().solution, solved.value().seconds);
+  if (options.as_json) {
+    app::print_json(reach_study::json_of(summary));
+  } else {
+    app::print("{}", reach_study::text_of(summary));
   }
-  std::error_code problem_of_it;
-  fs::rename(part, options.output, problem_of_it);
-  if (problem_of_it) {
-    return refused({Error::Code::unwritable, options.output + ": " + problem_of_it.message()});
-  }
-  tell(options, solved.value(), to_seconds(clock.now() - start));
   return success;
 }
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,8 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
+#include "saca/lab/reach_study/danger_tables.h"
+#include "saca/lab/reach_study/needed_tables.h"
 
 namespace saca::app {
 namespace {
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 struct TablesOptions {
   std::vector<std::string> scenarios;
   bool as_json = false;
-};
-
-struct NeededByCar {
-  Inputs inputs;
-  std::map<std::string, danger::DangerCase> tables;  // by their names
 };
 
 Result<std::vector<std::string>> all_shipped() {
@@ -39,25 +35,26 @@ Result<std::vector<std::string>> all_shipped() {
   return files;
 }
 
-/// By the cars' names.
-Result<std::map<std::string, NeededByCar>> needed_by(const std::vector<std::string>& scenarios) {
-  std::map<std::string, NeededByCar> cars;
+/// What the scenarios need, and of each car's tables where they are kept.
+struct Needed {
+  reach_study::NeededTables tables;
+  std::map<std::string, reach_study::TableStore> stores;
+};
+
+Result<Needed> needed_by(const std::vector<std::string>& scenarios) {
+  Needed needed;
   for (const std::string& scenario : scenarios) {
-    const auto inputs = read_scenario_inputs(scenario);
-    if (!inputs.has_value()) {
-      return inputs.error();
+    const auto read = read_scenario_inputs(scenario);
+    if (!read.has_value()) {
+      return read.error();
     }
-    auto& car =
-        cars.try_emplace(inputs.value().car_name, NeededByCar{inputs.value(), {}}).first->second;
-    const auto needed = needed_tables(inputs.value());
-    if (!needed.has_value()) {
-      return needed.error();
-    }
-    for (const danger::DangerCase& table : needed.value()) {
-      car.tables.try_emplace(table.name, table);
+    const ScenarioInputs& inputs = read.value();
+    needed.stores.try_emplace(inputs.car_name, table_store(inputs));
+    if (auto problem = needed.tables.add({inputs.car_name, inputs.car}, inputs.scenario)) {
+      return *std::move(problem);
     }
   }
-  return cars;
+  return needed;
 }
 
 int make_tables(TablesOptions options) {
@@ -68,25 +65,23 @@ int make_tables(TablesOptions options) {
     }
     options.scenarios = std::move(shipped).value();
   }
-  const auto cars = needed_by(options.scenarios);
-  if (!cars.has_value()) {
-    return refused(cars.error());
+  const auto needed = needed_by(options.scenarios);
+  if (!needed.has_value()) {
+    return refused(needed.error());
   }
   nlohmann::json list = nlohmann::json::array();
-  for (const auto& [car, needed] : cars.value()) {
-    for (const auto& [name, table] : needed.tables) {
-      const auto ready = ready_table(needed.inputs, table);
+  for (const auto& [car, tables] : needed.value().tables.by_car()) {
+    for (const auto& [name, table] : tables) {
+      const auto ready = reach_study::ready_table(table, needed.value().stores.at(car));
       if (!ready.has_value()) {
         return refused(ready.error());
       }
       if (ready.value().not_kept) {
         return refused(*ready.value().not_kept);
       }
-      const std::string file = ready.value().file.string();
-      list.push_back(
-          {{"car", car}, {"table", name}, {"file", file}, {"was_there", ready.value().was_there}});
+      list.push_back(reach_study::table_json(car, name, ready.value()));
       if (!options.as_json) {
-        app::print("{:18} {:20} {}\n", car, name, ready.value().was_there ? "was there" : "solved");
+        app::print("{}", reach_study::table_line(car, name, ready.value()));
       }
     }
   }
