@@ -8,7 +8,6 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
-#include "apps/saca/pictures.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
@@ -19,6 +18,7 @@
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/long_work/progress.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 
 namespace saca::app {
 namespace {
@@ -113,8 +113,9 @@ std::optional<Error> write(const ShowcasePage& one, const std::string& output) {
   if (auto problem = long_work::write_output(file, scenario::write_scenario(one.scenario))) {
     return problem;
   }
-  return long_work::write_output(fs::path(output) / (one.scenario.name + ".svg"),
-                                 report::contact_sheet(sheet_of(one.oracle, one.scenario)));
+  return long_work::write_output(
+      fs::path(output) / (one.scenario.name + ".svg"),
+      report::contact_sheet(policy_study::sheet_of(one.oracle, one.scenario)));
 }
 
 int run(const ShowcaseCommand& options) {
