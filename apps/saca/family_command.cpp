@@ -8,13 +8,13 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
-#include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/lab/eval/suite_source.h"
 #include "saca/lab/long_work/output_file.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/rollout/describe.h"
 
@@ -45,8 +45,8 @@ report::SceneView thumbnail(const scenario::Scenario& scenario,
   const eval::DecisionPoint point =
       eval::decision_point_at(scenario, inputs.car, trigger.value_or(0.0));
   const auto tried = encounter::hindsight(point, inputs.car, inputs.harm);
-  report::SceneView view =
-      view_of(point.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
+  report::SceneView view = policy_study::view_of(
+      point.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
   view.policy = std::nullopt;
   view.title = scenario.name;
   view.lines.insert(view.lines.begin(),

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "apps/saca/pictures.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/lab/eval/suite_file.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/suites/suite_page.h"
@@ -16,7 +16,7 @@ std::optional<Error> write_rows_and_page(const SuiteRun& run, const SuiteResult&
   }
   return long_work::write_output(
       std::filesystem::path(options.output).replace_extension(".html"),
-      report::suite_page(suites::page_of(run, result, options, view_of)));
+      report::suite_page(suites::page_of(run, result, options, policy_study::view_of)));
 }
 
 }  // namespace saca::app
