@@ -8,7 +8,7 @@ namespace saca::app {
 /// `--memory` and `--llm`: what SACA thinks with.
 struct ThinkingOptions {
   std::string memory;         ///< file of the memory bank; empty: none
-  std::string model = "off";  ///< as ChosenModel::open takes it
+  std::string model = "off";  ///< as model_access::open_model takes it
   /// Likewise, of methods that ask a model as it was before it was taught; empty: none.
   std::string untuned;
 };
