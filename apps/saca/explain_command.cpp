@@ -7,6 +7,7 @@
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/report/record_in_words.h"
+#include "saca/lab/runs/explanation_told.h"
 
 namespace saca::app {
 namespace {
@@ -25,21 +26,11 @@ int run(const ExplainOptions& options) {
   if (!told.has_value()) {
     return refused(told.error());
   }
-  nlohmann::json paragraphs = nlohmann::json::array();
-  for (const report::Paragraph& paragraph : told.value()) {
-    if (options.as_json) {
-      paragraphs.push_back({{"about", paragraph.about}, {"sentences", paragraph.sentences}});
-      continue;
-    }
-    app::print("{}\n", paragraph.about);
-    for (const std::string& sentence : paragraph.sentences) {
-      app::print("  {}\n", sentence);
-    }
-  }
   if (options.as_json) {
-    app::print("{}\n",
-               nlohmann::json{{"schema", "saca.explanation/1"}, {"paragraphs", paragraphs}}.dump(
-                   1, ' ', false, nlohmann::json::error_handler_t::replace));
+    app::print("{}\n", runs::explanation_json(told.value())
+                           .dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    app::print("{}", runs::explanation_text(told.value()));
   }
   return success;
 }

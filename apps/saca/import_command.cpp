@@ -1,11 +1,6 @@
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,10 +12,10 @@
 #include "apps/saca/settings.h"
 #include "apps/saca/within.h"
 #include "saca/base/core/clock.h"
-#include "saca/base/core/file.h"
-#include "saca/base/core/units.h"
 #include "saca/lab/importers/hundred_car.h"
 #include "saca/lab/importers/hundred_car_release.h"
+#include "saca/lab/importers/import_json.h"
+#include "saca/lab/importers/import_text.h"
 #include "saca/lab/importers/traffic_recording.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
@@ -54,10 +49,8 @@ int import_hundred_car(const ImportOptions& options) {
     complain(problem->message);
     return cannot_write;
   }
-  const importers::HundredCarReport& report = imported.value().report;
-  app::print("{}: event {}, rows {} to {}; lead seen in {} rows, {} gaps bridged, {} outliers\n",
-             options.output, options.request.event, report.first_row, report.last_row,
-             report.lead.num_seen, report.lead.num_gaps, report.lead.num_outliers);
+  app::print("{}",
+             importers::import_text(imported.value().report, options.request, options.output));
   return success;
 }
 
@@ -88,49 +81,6 @@ std::optional<Error> write_scenarios(const std::vector<importers::HundredCarOutc
   return std::nullopt;
 }
 
-nlohmann::json outcome_json(const importers::HundredCarOutcome& outcome) {
-  nlohmann::json told{{"event", outcome.event}, {"severity", outcome.severity}};
-  if (const importers::HundredCarRefusal* refusal = outcome.refusal()) {
-    told["refused"] = name(refusal->reason);
-    told["message"] = refusal->message;
-    return told;
-  }
-  const importers::HundredCarReport& report = outcome.rebuilt()->report;
-  told["scenario"] = outcome.rebuilt()->scenario.name;
-  told["first_row"] = report.first_row;
-  told["last_row"] = report.last_row;
-  told["gyro_bias_degps"] = to_degrees(report.gyro_bias);
-  told["curvature_1pm"] = report.curvature;
-  told["lane_kept_s"] = report.kept_for;
-  told["lane_rms_m"] = report.keeping_rms;
-  return told;
-}
-
-void tell_all(const std::vector<importers::HundredCarOutcome>& outcomes, std::size_t num_rebuilt,
-              bool as_json) {
-  const auto refusals = importers::refusals(outcomes);
-  if (as_json) {
-    nlohmann::json reasons = nlohmann::json::object();
-    for (const auto& [reason, count] : refusals) {
-      reasons[std::string(name(reason))] = count;
-    }
-    nlohmann::json list = nlohmann::json::array();
-    std::transform(outcomes.begin(), outcomes.end(), std::back_inserter(list), outcome_json);
-    const nlohmann::json told{{"schema", "saca.hundred_car_import/1"},
-                              {"events", outcomes.size()},
-                              {"rebuilt", num_rebuilt},
-                              {"refused", reasons},
-                              {"list", list}};
-    app::print_json(told);
-    return;
-  }
-  app::print("{} events: {} rebuilt, {} refused\n", outcomes.size(), num_rebuilt,
-             outcomes.size() - num_rebuilt);
-  for (const auto& [reason, count] : refusals) {
-    app::print("  {:5} {:24} {}\n", count, name(reason), meaning(reason));
-  }
-}
-
 int import_all_hundred_cars(const ImportOptions& options) {
   const fs::path some_file =
       options.output.empty() ? fs::path() : fs::path(options.output) / "x.toml";
@@ -147,10 +97,11 @@ int import_all_hundred_cars(const ImportOptions& options) {
       return cannot_write;
     }
   }
-  const auto num_rebuilt = static_cast<std::size_t>(
-      std::count_if(outcomes.value().begin(), outcomes.value().end(),
-                    [](const auto& outcome) { return outcome.rebuilt() != nullptr; }));
-  tell_all(outcomes.value(), num_rebuilt, options.as_json);
+  if (options.as_json) {
+    app::print_json(importers::import_json(outcomes.value()));
+  } else {
+    app::print("{}", importers::import_text(outcomes.value()));
+  }
   return success;
 }
 
@@ -160,59 +111,6 @@ struct TrafficOptions {
   std::string output;
   bool as_json = false;
 };
-
-nlohmann::json traffic_json(const importers::TrafficImport& made, const TrafficOptions& options) {
-  const importers::TrafficReport& report = made.report;
-  const recordings::LaneFit& lane = report.lane;
-  nlohmann::json actors = nlohmann::json::array();
-  for (const importers::TrafficActor& actor : report.actors) {
-    actors.push_back({{"name", actor.name}, {"obstacle", actor.obstacle}});
-  }
-  return {{"schema", "saca.traffic_import/1"},
-          {"name", made.scenario.name},
-          {"output", options.output},
-          {"ego", options.request.ego ? nlohmann::json(*options.request.ego) : nlohmann::json()},
-          {"from_s", report.from},
-          {"duration_s", made.scenario.duration},
-          {"origin_x_m", report.origin_W.x},
-          {"origin_y_m", report.origin_W.y},
-          {"lane",
-           {{"lanelets", lane.lanelets},
-            {"behind_m", lane.behind},
-            {"ahead_m", lane.ahead},
-            {"rms_m", lane.rms},
-            {"largest_m", lane.largest},
-            {"widened_left_m", report.widened_left},
-            {"widened_right_m", report.widened_right}}},
-          {"smoothing",
-           {{"outliers", report.num_outliers},
-            {"filled", report.num_filled},
-            {"rms_shift_m", report.rms_shift},
-            {"largest_shift_m", report.largest_shift},
-            {"hardest_mps2", report.hardest}}},
-          {"actors", actors},
-          {"left_out", report.left_out},
-          {"ignored", report.ignored}};
-}
-
-void tell(const importers::TrafficImport& made, const TrafficOptions& options) {
-  const importers::TrafficReport& report = made.report;
-  const recordings::LaneFit& lane = report.lane;
-  app::print("{}: {} vehicles around {}, {:.1f} s\n", options.output, made.scenario.actors.size(),
-             options.request.ego ? fmt::format("obstacle {}", *options.request.ego)
-                                 : "the planning problem's start",
-             made.scenario.duration);
-  app::print("  lane: an arc over {:.0f} m ahead, {:.2f} m off rms, {:.2f} m at most\n", lane.ahead,
-             lane.rms, lane.largest);
-  app::print("  smoothing: {:.2f} m rms, {:.2f} m at most, {} outliers\n", report.rms_shift,
-             report.largest_shift, report.num_outliers);
-  for (const auto& [reason, count] : report.left_out) {
-    app::print("  left out: {} {}\n", count, reason);
-  }
-  for (const auto& [element, count] : report.ignored) {
-    app::print("  ignored: {} {}\n", count, element);
-  }
-}
 
 int import_traffic(const TrafficOptions& options) {
   const auto imported = importers::import_commonroad(options.path, options.request);
@@ -231,9 +129,9 @@ int import_traffic(const TrafficOptions& options) {
     return cannot_write;
   }
   if (options.as_json) {
-    app::print_json(traffic_json(imported.value(), options));
+    app::print_json(importers::import_json(imported.value(), options.request, options.output));
   } else {
-    tell(imported.value(), options);
+    app::print("{}", importers::import_text(imported.value(), options.request, options.output));
   }
   return success;
 }

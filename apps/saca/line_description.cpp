@@ -1,30 +1,19 @@
 #include "apps/saca/line_description.h"
 
-#include <string_view>
-
-#include "apps/saca/parsing.h"
-#include "saca/base/core/csv.h"
+#include <utility>
 
 namespace saca::app {
 namespace {
 
-/// "real", "lockstep" of "TEXT:{real,lockstep}".
-std::vector<std::string> choices_of(std::string_view type) {
-  const auto open = type.find('{');
-  const auto close = type.rfind('}');
-  if (open == type.npos || close == type.npos || close < open) {
-    return {};
-  }
-  const auto words = fields_of(type.substr(open + 1, close - open - 1), ',');
-  return {words.begin(), words.end()};
-}
+using shell::CommandDescription;
+using shell::OptionDescription;
 
-DescribedOption described_option(const CLI::Option& option) {
-  DescribedOption all{.names = {},
-                      .value = "",
-                      .choices = choices_of(option.get_type_name()),
-                      .about = option.get_description(),
-                      .needed = option.get_required()};
+OptionDescription described_option(const CLI::Option& option) {
+  OptionDescription all{.names = {},
+                        .value = "",
+                        .choices = shell::choices_of(option.get_type_name()),
+                        .about = option.get_description(),
+                        .needed = option.get_required()};
   if (!option.nonpositional()) {
     all.names.push_back(option.get_name());
     return all;
@@ -36,20 +25,26 @@ DescribedOption described_option(const CLI::Option& option) {
     all.names.push_back("--" + name);
   }
   if (option.get_items_expected_max() > 0) {
-    const std::string type = option.get_type_name();
-    all.value = type.substr(0, type.find(':'));
-    const auto range = all.value.find(" in [");  // of numbers
-    all.about += range == std::string::npos ? "" : " (" + all.value.substr(range + 1) + ")";
-    all.value = all.value.substr(0, range);
-    all.value = all.value.empty() ? "VALUE" : all.value;
-    if (const std::string usual = option.get_default_str(); !usual.empty()) {
-      all.about += " (default: " + usual + ")";
-    }
+    shell::describe_value(all, option.get_type_name(), option.get_default_str());
   }
   return all;
 }
 
-void add_positionals(const CLI::App& command, std::vector<DescribedOption>& all) {
+/// Those that are no positional ones, flags among them.
+void add_options(const CLI::App& command, std::vector<OptionDescription>& all) {
+  for (const CLI::Option* const option : command.get_options()) {
+    if (option->nonpositional() && !option->get_group().empty()) {
+      all.push_back(described_option(*option));
+    }
+  }
+  for (const CLI::App* const group : command.get_subcommands({})) {
+    if (group->get_name().empty()) {
+      add_options(*group, all);
+    }
+  }
+}
+
+void add_positionals(const CLI::App& command, std::vector<OptionDescription>& all) {
   for (const CLI::Option* const option : command.get_options()) {
     if (!option->nonpositional() && !option->get_group().empty()) {
       all.push_back(described_option(*option));
@@ -57,15 +52,29 @@ void add_positionals(const CLI::App& command, std::vector<DescribedOption>& all)
   }
 }
 
-void add(const CLI::App& command, std::vector<DescribedCommand>& all) {
-  DescribedCommand one{.name = full_name(command),
-                       .about = command.get_description(),
-                       .options = {},
-                       .positionals = {},
-                       .commands = {}};
-  for (const CLI::Option* const option : options_of(command)) {
-    one.options.push_back(described_option(*option));
+std::string full_name(const CLI::App& command) {
+  const CLI::App* const parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
+}
+
+std::vector<const CLI::App*> commands_of(const CLI::App& command) {
+  std::vector<const CLI::App*> all;
+  for (const CLI::App* const one : command.get_subcommands({})) {
+    const bool group_of_options = one->get_name().empty();
+    if (!group_of_options && !one->get_group().empty()) {
+      all.push_back(one);
+    }
   }
+  return all;
+}
+
+void add(const CLI::App& command, shell::LineDescription& all) {
+  CommandDescription one{.name = full_name(command),
+                         .about = command.get_description(),
+                         .options = {},
+                         .positionals = {},
+                         .commands = {}};
+  add_options(command, one.options);
   add_positionals(command, one.positionals);
   const auto inner = commands_of(command);
   for (const CLI::App* const next : inner) {
@@ -79,8 +88,8 @@ void add(const CLI::App& command, std::vector<DescribedCommand>& all) {
 
 }  // namespace
 
-std::vector<DescribedCommand> described(const CLI::App& command) {
-  std::vector<DescribedCommand> all;
+shell::LineDescription described(const CLI::App& command) {
+  shell::LineDescription all;
   add(command, all);
   return all;
 }

@@ -12,6 +12,7 @@
 #include "apps/saca/settings.h"
 #include "apps/saca/version.h"
 #include "saca/base/core/standard_files.h"
+#include "saca/lab/shell/refusal.h"
 
 namespace {
 
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
     add_bench(line, exit_code);
     add_completion(line, exit_code);
     add_man(line, exit_code);
-    std::vector<std::string> words = as_spelt(argc, argv);
+    std::vector<std::string> words = saca::shell::as_spelt({argv + std::min(argc, 1), argv + argc});
     std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
     try {
       line.parse(std::move(words));

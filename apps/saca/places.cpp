@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "apps/saca/settings.h"
-#include "saca/base/core/file.h"
 #include "saca/base/core/printable.h"
 #include "saca/base/core/suggestion.h"
-#include "saca/base/formats/json_text.h"
 
 namespace saca::app {
 
@@ -34,28 +32,6 @@ Result<Places> find_places() {
   }
   return Error{Error::Code::unreadable,
                "data/harm.toml is neither beside the program's build folder nor in share/saca"};
-}
-
-ModelChoice find_model_choice(const Places& places) {
-  const fs::path folder = places.root / "third_party" / "models";
-  const auto text = read_file(folder / "choice.json");
-  if (!text.has_value()) {
-    return {};
-  }
-  const auto parsed = formats::parse_json(text.value());
-  if (!parsed.has_value() || !parsed.value().is_object()) {
-    return {};
-  }
-  ModelChoice choice;
-  const auto name = parsed.value().find("weights");
-  if (name != parsed.value().end() && name->is_string()) {
-    const fs::path weights = folder / name->get<std::string>();
-    std::error_code problem;
-    choice.weights = fs::exists(weights, problem) ? std::optional(weights) : std::nullopt;
-  }
-  const auto flash = parsed.value().find("flash_attention");
-  choice.flash_attention = flash != parsed.value().end() && flash->is_boolean() && *flash == true;
-  return choice;
 }
 
 namespace {

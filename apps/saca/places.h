@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +31,6 @@ struct Places {
 
 /// @return  Error::Code::unreadable when neither place has data/harm.toml
 [[nodiscard]] Result<Places> find_places();
-
-/// What `make model` measured to be fastest on this processor.
-struct ModelChoice {
-  std::optional<std::filesystem::path> weights;  ///< nullopt: none are there
-  bool flash_attention = false;
-};
-[[nodiscard]] ModelChoice find_model_choice(const Places& places);
 
 /// A scenario by its path, or by the name of a shipped one.
 /// @return  Error::Code::unreadable where there is neither, with the name that was likely meant

@@ -1,12 +1,9 @@
 #include <unistd.h>
 
-#include <fmt/core.h>
-
 #include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "apps/saca/atlas_making.h"
@@ -17,7 +14,6 @@
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
@@ -25,14 +21,14 @@
 #include "saca/lab/encounter/encounter.h"
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/encounter/provenance.h"
-#include "saca/lab/encounter/review.h"
-#include "saca/lab/encounter/trace.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/report/record_in_words.h"
-#include "saca/lab/report/record_page.h"
+#include "saca/lab/runs/bank.h"
+#include "saca/lab/runs/forced_plan.h"
+#include "saca/lab/runs/look_back.h"
+#include "saca/lab/runs/run_files.h"
+#include "saca/lab/runs/story.h"
 #include "saca/onboard/atlas/atlas_file.h"
-#include "saca/thinking/memory/store.h"
 
 namespace saca::app {
 namespace {
@@ -45,9 +41,7 @@ struct RunOptions {
   std::string trigger = "value";
   ThinkingOptions thinking{.model = "local"};
   std::string record_replies;
-  std::optional<manoeuvre::PolicyId> policy;
-  std::optional<double> target_speed;
-  std::optional<double> strength;
+  runs::ForcedPolicy forced;
   std::optional<std::uint64_t> seed;
   std::string atlas;
   std::string danger;
@@ -94,50 +88,16 @@ Result<std::optional<danger::DangerModel>> open_danger(const RunOptions& options
 /// nullptr: none is wanted.
 Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
                                                    const ScenarioInputs& inputs) {
-  const std::string& file = options.thinking.memory;
-  if (file.empty() || options.no_memory) {
+  if (options.thinking.memory.empty() || options.no_memory) {
     return std::shared_ptr<memory::Store>();
   }
-  const bool on_a_server = memory::is_on_a_server(file);
-  const fs::path folder = on_a_server ? fs::path() : fs::path(file).parent_path();
-  std::error_code problem;
-  if (!options.no_learning && !folder.empty() && !fs::is_directory(folder, problem)) {
-    return Error{
-        Error::Code::unreadable,
-        fmt::format("--memory {}: want a folder that is there, got {}", file, folder.string())};
-  }
-  const auto with_a_way_out = [&options, on_a_server](const Error& error) {
-    return Error{error.code,
-                 error.message + " (" +
-                     (options.no_learning || on_a_server ? "" : "move the file away, or ") +
-                     "run without --memory)"};
-  };
-  auto car = encounter::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);
-  auto opened = options.no_learning ? memory::Store::snapshot(file, std::move(car))
-                                    : memory::Store::open(file, std::move(car));
-  if (!opened.has_value()) {
-    return with_a_way_out(opened.error());
-  }
-  auto store = std::make_shared<memory::Store>(std::move(opened).value());
-  if (store->size() == 0 && !options.no_learning && !options.empty_memory) {
-    const auto cases = banks::shipped_cases(inputs.places.root);
-    if (!cases.has_value()) {
-      return cases.error();
-    }
-    if (const auto failed = store->begin_with(cases.value())) {
-      return with_a_way_out(*failed);
-    }
-  }
-  return store;
-}
-
-std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
-                                   const fs::path& report) {
-  if (auto problem = long_work::write_output(folder / "record.json", record)) {
-    return problem;
-  }
-  const auto page = report::html_report(record);
-  return page.has_value() ? long_work::write_output(report, page.value()) : page.error();
+  return runs::open_bank(
+      {.place = options.thinking.memory,
+       .use = options.no_learning    ? runs::BankUse::ask
+              : options.empty_memory ? runs::BankUse::learn_from_empty
+                                     : runs::BankUse::learn,
+       .car = encounter::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car),
+       .shipped = [&inputs] { return banks::shipped_cases(inputs.places.root); }});
 }
 
 /// Of a record that this command makes now.
@@ -155,52 +115,12 @@ Result<encounter::Provenance> provenance_of(const ScenarioInputs& inputs,
                                .digest = digest.value()};
 }
 
-/// What came, what was weighed and why this was done.
-std::vector<std::string> in_short(const std::string& record) {
-  const auto told = report::explanation(record, "the record");
-  return told.has_value() ? told.value().front().sentences : std::vector<std::string>();
-}
-
 /// CLI11's convention: what is wrong with the name of a trace, or nothing.
 std::string wrong_trace_name(const std::string& name) {
   const std::string extension = fs::path(name).extension();
   return extension == ".jsonl" || extension == ".csv"
              ? std::string()
              : "want a file that ends in .jsonl or .csv, got `" + name + "`";
-}
-
-std::optional<Error> write_trace(const fs::path& file, const encounter::Setup& setup,
-                                 const encounter::Record& record) {
-  return long_work::write_output(file, file.extension() == ".csv"
-                                           ? encounter::trace_csv(setup, record)
-                                           : encounter::trace_jsonl(setup, record));
-}
-
-std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& tape) {
-  runtime::TapeFile by_this_program = tape;
-  by_this_program.header.program = SACA_VERSION;
-  return long_work::write_output(file, runtime::tape_text(by_this_program));
-}
-
-/// nullopt: what SACA decides is carried out.
-Result<std::optional<manoeuvre::Plan>> forced_plan(const RunOptions& options) {
-  if (options.strength && !(options.policy && manoeuvre::takes_strength(*options.policy))) {
-    return Error{Error::Code::out_of_range, "--strength: only of --policy 0"};
-  }
-  if (options.target_speed && !(options.policy && manoeuvre::brakes_to_speed(*options.policy))) {
-    return Error{Error::Code::out_of_range, "--target-speed: only of --policy 3 and 4"};
-  }
-  if (!options.policy) {
-    return std::optional<manoeuvre::Plan>();
-  }
-  return std::optional(manoeuvre::Plan{*options.policy, options.target_speed, options.strength});
-}
-
-/// Before anything is played.
-std::optional<Error> why_unwritable(const RunOptions& options, const std::string& scenario) {
-  return long_work::why_outputs_unwritable({fs::path(options.output) / scenario / "record.json",
-                                            options.report, options.trace, options.tape,
-                                            options.record_replies});
 }
 
 /// All that a run is made with.
@@ -211,17 +131,23 @@ struct Means {
   std::optional<atlas::Atlas> atlas;
   std::optional<danger::DangerModel> danger;
   std::shared_ptr<memory::Store> memory;
-  ChosenModel model;
+  model_access::ChosenModel model;
   std::optional<manoeuvre::Plan> forced;
 };
 
-fs::path folder_of(const RunOptions& options, const Means& means) {
-  return fs::path(options.output) / means.inputs.scenario.name;
+runs::RunFiles files_of(const RunOptions& options, const std::string& scenario) {
+  const fs::path folder = fs::path(options.output) / scenario;
+  return {.record = folder / "record.json",
+          .report = options.report.empty() ? folder / "report.html" : fs::path(options.report),
+          .trace = options.trace,
+          .tape = options.tape};
 }
 
-fs::path report_of(const RunOptions& options, const Means& means) {
-  return options.report.empty() ? folder_of(options, means) / "report.html"
-                                : fs::path(options.report);
+/// Before anything is played.
+std::optional<Error> why_unwritable(const RunOptions& options, const std::string& scenario) {
+  const runs::RunFiles files = files_of(options, scenario);
+  return long_work::why_outputs_unwritable(
+      {files.record, options.report, options.trace, options.tape, options.record_replies});
 }
 
 runtime::Pace pace_of(const RunOptions& options) {
@@ -257,12 +183,12 @@ Result<std::unique_ptr<Means>> open_means(const RunOptions& options, Clock& cloc
   if (!memory.has_value()) {
     return memory.error();
   }
-  auto model = ChosenModel::open(inputs.value().places, options.thinking.model,
+  auto model = open_chosen_model(inputs.value().places, options.thinking.model,
                                  options.record_replies, pace_of(options), clock);
   if (!model.has_value()) {
     return model.error();
   }
-  const auto forced = forced_plan(options);
+  const auto forced = runs::forced_plan(options.forced);
   if (!forced.has_value()) {
     return forced.error();
   }
@@ -292,40 +218,13 @@ encounter::Setup setup_of(const Means& means, const RunOptions& options, Clock& 
           .clock = &clock};
 }
 
-/// Has the model tell its reasons anew where they did not hold, and look back.
-void look_back(const encounter::Setup& setup, encounter::Record& record, Story& story) {
+/// Has the model look back until it is interrupted.
+void look_back_until_interrupted(const encounter::Setup& setup, encounter::Record& record,
+                                 runs::Story& story) {
   const long_work::InterruptStop interrupt;
-  if (setup.model != nullptr) {
-    for (arbitration::Preview& preview : record.previews) {
-      preview.retold = arbitration::retold(preview, *setup.model, *setup.clock, interrupt.token());
-    }
+  if (const auto problem = runs::look_back(setup, record, story, interrupt.token())) {
+    complain("no review: " + problem->message);
   }
-  const auto review = encounter::review(
-      setup, record, [&](std::string_view said) { story.on_review(said); }, interrupt.token());
-  if (!review.has_value()) {
-    complain("no review: " + review.error().message);
-  } else if (review.value()) {
-    record.review = review.value();
-    story.on_truth(record.review->truth);
-    story.on_shown(record.review->shown);
-    if (record.stored) {
-      record.not_stored = encounter::keep_lesson(*setup.memory, *record.stored, *record.review);
-    }
-  }
-}
-
-/// Everything that is asked for, until something cannot be written.
-std::optional<Error> write_all(const RunOptions& options, const Means& means,
-                               const encounter::Setup& setup, const encounter::Record& record,
-                               const std::string& text) {
-  auto problem = write_outputs(text, folder_of(options, means), report_of(options, means));
-  if (!problem && !options.trace.empty()) {
-    problem = write_trace(options.trace, setup, record);
-  }
-  if (!problem && record.tape) {
-    problem = write_tape(options.tape, *record.tape);
-  }
-  return problem ? problem : means.model.save_replies();
 }
 
 int run(const RunOptions& options) {
@@ -338,7 +237,8 @@ int run(const RunOptions& options) {
   const encounter::Setup setup = setup_of(means, options, clock);
   std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
   const bool silent = options.as_json || settings().quiet;
-  Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO), wants_colours(STDOUT_FILENO));
+  runs::Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO),
+                    wants_colours(STDOUT_FILENO));
   story.headline(means.inputs.scenario, setup);
   auto played = encounter::run(setup, story);
   if (!played.has_value()) {
@@ -346,18 +246,23 @@ int run(const RunOptions& options) {
   }
   encounter::Record record = std::move(played).value();
   std::string text = encounter::record_json(setup, record, &means.provenance);
-  story.ending(means.inputs.scenario, record, in_short(text));
+  story.ending(means.inputs.scenario, record, runs::in_short(text));
   // What was played is written down even if nobody wants to wait for the review.
   long_work::watch_for_interrupt();
   if (options.review) {
-    look_back(setup, record, story);
+    look_back_until_interrupted(setup, record, story);
     text = encounter::record_json(setup, record, &means.provenance);
   }
-  auto problem = write_all(options, means, setup, record, text);
+  const runs::RunFiles files = files_of(options, means.inputs.scenario.name);
+  auto problem = runs::write_run(
+      files, {.setup = setup, .record = record, .record_text = text, .program = SACA_VERSION});
+  if (!problem) {
+    problem = means.model.save_replies();
+  }
   if (options.as_json) {
     app::print("{}\n", text);
   } else if (!problem) {
-    story.on_report(fs::absolute(report_of(options, means)).string());
+    story.on_report(fs::absolute(files.report).string());
   }
   if (!problem) {
     problem = record.not_stored ? record.not_stored : story.problem();
@@ -391,11 +296,11 @@ void add_run(CLI::App& line, int& exit_code) {
   add_thinking_options(*command, options->thinking);
   command->add_option("--record-replies", options->record_replies,
                       "Write the model's replies to a file for --llm replay:FILE");
-  add_policy(*command, options->policy,
+  add_policy(*command, options->forced.policy,
              "Carry out this policy (0-7, or its name) at the trigger, whatever was thought");
-  add_target_speed(*command, options->target_speed);
+  add_target_speed(*command, options->forced.target_speed);
   command
-      ->add_option("--strength", options->strength,
+      ->add_option("--strength", options->forced.strength,
                    "Of policy 0: share of the grip that the brakes are asked for (default: all)")
       ->check(within(manoeuvre::least_strength, 1.0, "-"));
   command->add_option("--seed", options->seed,

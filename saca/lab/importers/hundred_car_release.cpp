@@ -130,6 +130,12 @@ Result<std::vector<HundredCarOutcome>> import_hundred_cars(
   return std::move(outcomes).all();
 }
 
+std::size_t num_rebuilt(const std::vector<HundredCarOutcome>& outcomes) {
+  return static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(),
+                    [](const HundredCarOutcome& one) { return one.rebuilt() != nullptr; }));
+}
+
 std::map<HundredCarReason, std::size_t> refusals(const std::vector<HundredCarOutcome>& outcomes) {
   std::map<HundredCarReason, std::size_t> counts;
   for (const HundredCarOutcome& outcome : outcomes) {

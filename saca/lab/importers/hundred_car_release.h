@@ -45,6 +45,9 @@ struct HundredCarOutcome {
     const std::filesystem::path& folder, const HundredCarRequest& request,
     const recordings::PackProgress& progress);
 
+/// How many became a scenario.
+[[nodiscard]] std::size_t num_rebuilt(const std::vector<HundredCarOutcome>& outcomes);
+
 /// How many were refused, by reason; reasons that nobody had are left out.
 [[nodiscard]] std::map<HundredCarReason, std::size_t> refusals(
     const std::vector<HundredCarOutcome>& outcomes);

@@ -1,4 +1,4 @@
-#include "apps/saca/story.h"
+#include "saca/lab/runs/story.h"
 
 #include <fmt/core.h>
 #include <poll.h>
@@ -15,7 +15,7 @@
 #include "saca/onboard/collision/ordering.h"
 #include "saca/thinking/rollout/describe.h"
 
-namespace saca::app {
+namespace saca::runs {
 namespace {
 
 constexpr const char* plain = "\033[0m";
@@ -180,4 +180,4 @@ void Story::on_report(const std::string& file) {
   say(fmt::format("{}Report: {}\n", reviewing_ ? "\n" : "", one_line(file, longest_event)));
 }
 
-}  // namespace saca::app
+}  // namespace saca::runs

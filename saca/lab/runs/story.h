@@ -7,7 +7,9 @@
 #include "saca/base/core/result.h"
 #include "saca/lab/encounter/encounter.h"
 
-namespace saca::app {
+/// What one run of an encounter leaves and tells, beside the record: its story while it happens,
+/// its files, its memory, and the same steps worked out again from a tape.
+namespace saca::runs {
 
 /// Tells an encounter on a file that is open, while it happens.
 ///
@@ -53,4 +55,4 @@ class Story final : public encounter::Listener {
   std::optional<Error> problem_;
 };
 
-}  // namespace saca::app
+}  // namespace saca::runs
