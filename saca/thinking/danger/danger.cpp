@@ -152,8 +152,8 @@ EvasionPath driven_by(const Avoidance& system, const Meeting& meeting, const Sta
                       const Acceleration& input, double longest) {
   return follow(
       system, [&](const State& at) { return intrusion_of(meeting, at); },
-      world::bounding_radius(meeting.ego), [&](const State&) { return input; }, state, input_step,
-      longest);
+      [&](const State&) { return input; }, state,
+      {.reach = world::bounding_radius(meeting.ego), .step = input_step, .longest = longest});
 }
 
 /// The highest h on the way to where a table takes over, and what that tells.
