@@ -7,9 +7,9 @@
 #include <memory>
 #include <utility>
 
-#include "apps/saca/pictures.h"
 #include "saca/lab/crash_records/record_family.h"
 #include "saca/lab/eval/decision_point.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/preview/expected_harm.h"
 
@@ -185,14 +185,14 @@ Result<report::GalleryCard> case_card(const CrashCase& one, const Inputs& inputs
   card.lines.push_back(fmt::format("{:.1f} m/s, grip {:.2f}; best over the draws: {}.",
                                    norm(point.scene.ego.v_B), one.grip,
                                    plan_text(one.judged.one.plan)));
-  card.done = view_of(point.scene, tried_plan(tried, manoeuvre::doing_nothing));
+  card.done = policy_study::view_of(point.scene, tried_plan(tried, manoeuvre::doing_nothing));
   card.done.title = one.kind ? "Without avoidance" : "Without avoidance, all going on";
   if (!one.kind) {
     card.lines.emplace_back(
         "The pictures show the scene as it was perceived at the trigger, all others going on as "
         "they did then: how they really moved is in the recording, not in the case.");
   }
-  card.best = view_of(point.scene, tried_plan(tried, one.judged.one.plan));
+  card.best = policy_study::view_of(point.scene, tried_plan(tried, one.judged.one.plan));
   card.best.title = "Best: " + plan_text(one.judged.one.plan);
   card.tables = {harms_table(one)};
   card.folded = {facts_table(one)};

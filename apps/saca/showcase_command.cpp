@@ -5,7 +5,6 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
-#include "apps/saca/pictures.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
@@ -13,6 +12,7 @@
 #include "apps/saca/within.h"
 #include "saca/lab/family_samples/showcase_json.h"
 #include "saca/lab/long_work/output_file.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 
 namespace saca::app {
 namespace {
@@ -35,8 +35,9 @@ std::optional<Error> write(const family_samples::ShowcaseScene& one, const std::
   if (auto problem = long_work::write_output(file, scenario::write_scenario(one.scenario))) {
     return problem;
   }
-  return long_work::write_output(fs::path(output) / (one.scenario.name + ".svg"),
-                                 report::contact_sheet(sheet_of(one.oracle, one.scenario)));
+  return long_work::write_output(
+      fs::path(output) / (one.scenario.name + ".svg"),
+      report::contact_sheet(policy_study::sheet_of(one.oracle, one.scenario)));
 }
 
 /// What was found for all policies.

@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "apps/saca/json_output.h"
-#include "apps/saca/pictures.h"
 #include "apps/saca/suite_decisions.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/eval/suite_file.h"
 #include "saca/lab/long_work/output_file.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 
 namespace saca::app {
 namespace {
@@ -276,8 +276,8 @@ std::optional<report::GalleryCard> card_of(const SuiteRun& run, const SuiteRow& 
       .title = fmt::format("{} {}: regret {:.3f}", row.family, row.number,
                            first.harm - row.risk.best_harm),
       .lines = {why_of(row, first)},
-      .done = view_of(scene->scene, *done),
-      .best = view_of(scene->scene, *best),
+      .done = policy_study::view_of(scene->scene, *done),
+      .best = policy_study::view_of(scene->scene, *best),
       .command = fmt::format("saca suite {} --split {} --seed {}{}{} --replay {}", options.name,
                              options.split, options.seed, options.exact ? " --exact" : "",
                              thinking_text(options.thinking) +

@@ -2,50 +2,21 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <string_view>
-
 #include "apps/saca/settings.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
-#include "saca/base/core/file.h"
-#include "saca/base/core/fnv.h"
-#include "saca/lab/long_work/interrupt.h"
-#include "saca/lab/long_work/output_file.h"
-#include "saca/lab/long_work/progress.h"
-#include "saca/lab/prepare/car_file.h"
+#include "saca/lab/policy_study/interruptible_survey.h"
+#include "saca/lab/policy_study/survey_inputs.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
 namespace saca::app {
-
-namespace fs = std::filesystem;
-using eval::Finding;
 
 std::optional<Error> add_inputs(const Places& places, const std::string& car, Fnv& hash) {
   const auto car_file = find_car(places, car);
   if (!car_file.has_value()) {
     return car_file.error();
   }
-  std::vector<fs::path> files{car_file.value(),
-                              "/proc/self/exe",
-                              places.root / "data" / "cues.toml",
-                              places.root / "data" / "harm.toml",
-                              places.root / "data" / "thinking_costs.toml",
-                              places.root / "scenarios" / "splits.toml"};
-  files.push_back(prepare::tuning_path(files.front()));
-  for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
-    if (entry.path().extension() == ".toml") {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
-    if (auto problem = read_file(file, [&](std::string_view bytes) { hash.add(bytes); })) {
-      return problem;
-    }
-  }
-  return std::nullopt;
+  return policy_study::add_survey_inputs(places.root, car_file.value(), hash);
 }
 
 std::string command_line(const SurveyOptions& options, const std::string& command) {
@@ -83,19 +54,12 @@ Result<DrawnSuite> open_suite(const SurveyOptions& options, const std::string& c
                     .digest = hash.value()};
 }
 
-Result<std::optional<std::vector<Finding>>> survey(const DrawnSuite& suite,
-                                                   const SurveyOptions& options) {
+Result<std::optional<std::vector<eval::Finding>>> survey(const DrawnSuite& suite,
+                                                         const SurveyOptions& options) {
   const std::string path = options.journal.empty() ? fmt::format("runs/survey-{}-{}.journal",
                                                                  options.suite, options.split)
                                                    : options.journal;
-  if (auto problem = long_work::make_folder_of(path)) {
-    return *problem;
-  }
-  long_work::watch_for_interrupt();
-  SteadyClock clock;
-  long_work::ProgressLine progress("survey of " + options.suite, options.count, clock,
-                                   progress_display());
-  return eval::survey(
+  return policy_study::interruptible_survey(
       {.source = &suite.source,
        .car = &suite.inputs.car,
        .harm = &suite.inputs.harm,
@@ -104,8 +68,7 @@ Result<std::optional<std::vector<Finding>>> survey(const DrawnSuite& suite,
        .journal = path,
        .title = fmt::format("saca {} survey of {}, {} split, {} ({:016x})", version_text(),
                             options.suite, options.split, options.car, suite.digest)},
-      {.is_interrupted = long_work::interrupted,
-       .progress = [&](int done, int before) { progress.show(done, before, " encounters"); }});
+      options.suite, progress_display());
 }
 
 void add_draw_options(CLI::App& command, int& count, std::string& split, std::string& test_log,

@@ -1,8 +1,6 @@
 #include <fmt/core.h>
 
-#include <array>
-#include <bit>
-#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,25 +10,17 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
-#include "saca/base/core/file.h"
-#include "saca/base/core/fnv.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/long_work/progress.h"
 #include "saca/lab/prepare/car_file.h"
-#include "saca/lab/prepare/tuning_file.h"
-#include "saca/lab/prepare/vehicle_file.h"
-#include "saca/lab/tune/minimise.h"
 #include "saca/lab/tune/trials.h"
-#include "saca/onboard/manoeuvre/car.h"
+#include "saca/lab/vehicle_study/tuning_report.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using manoeuvre::Car;
-using tune::Trial;
 
 struct TuneOptions {
   std::string car = "compact_rwd_ev";
@@ -43,73 +33,6 @@ struct TuneOptions {
   int threads = usual_threads();
   bool as_json = false;
 };
-
-/// Of the car's parameters: with others, costs that were worked out before are worth nothing.
-std::uint64_t digest(const vehicle::Vehicle& car) {
-  Fnv hash;
-  for (const double number : std::bit_cast<std::array<double, sizeof car / sizeof(double)>>(car)) {
-    hash.add(std::bit_cast<std::uint64_t>(number));
-  }
-  return hash.value();
-}
-
-/// Makes one law good at its trials.
-/// @return  its cost; nullopt: interrupted
-template <class Law, std::size_t n>
-Result<std::optional<double>> tune_law(const TuneOptions& options, const std::string& what,
-                                       const std::array<manoeuvre::Number<Law>, n>& numbers,
-                                       Law manoeuvre::Tuning::*law,
-                                       const std::vector<Trial>& trials,
-                                       double (*cost)(const Car&, const Trial&), int evaluations,
-                                       const fs::path& journal, Car& car) {
-  const auto with = [&](const std::vector<double>& x) {
-    Car changed = car;
-    for (std::size_t i = 0; i < n; ++i) {
-      changed.tuning.*law.*numbers[i].member = x[i];
-    }
-    return changed;
-  };
-  tune::Problem problem{
-      .name =
-          fmt::format("saca {}: {} of {} ({:016x})", SACA_VERSION, what, options.car, digest(car)),
-      .cost = [&](auto& x) { return tune::total_cost(with(x), trials, cost, options.threads); }};
-  for (const auto& number : numbers) {
-    problem.low.push_back(number.min);
-    problem.high.push_back(number.max);
-    problem.start.push_back(car.tuning.*law.*number.member);
-  }
-  SteadyClock clock;
-  long_work::ProgressLine line(what, evaluations, clock, progress_display());
-  int remembered = 0;
-  const auto found = tune::minimise(
-      problem, {evaluations, options.seed}, journal, [&](const tune::Progress& progress) {
-        remembered += progress.remembered ? 1 : 0;
-        line.show(progress.evaluations, remembered,
-                  fmt::format(" evaluations, best {:.4f}", progress.best));
-        return !long_work::interrupted();
-      });
-  if (!found.has_value()) {
-    return found.error();
-  }
-  if (!found.value()) {
-    return std::optional<double>();
-  }
-  car = with(found.value()->at);
-  return std::optional(found.value()->cost);
-}
-
-/// The car with the tuning to begin with.
-Result<Car> read_start(const fs::path& car_file, const fs::path& tuning_file) {
-  const auto parameters = prepare::read_vehicle(car_file);
-  if (!parameters.has_value()) {
-    return parameters.error();
-  }
-  const auto tuning = prepare::read_tuning(tuning_file);
-  if (!tuning.has_value()) {
-    return tuning.error();
-  }
-  return Car{parameters.value(), tuning.value()};
-}
 
 std::string command_line(const TuneOptions& options) {
   return fmt::format(
@@ -127,54 +50,22 @@ int stopped(const fs::path& output) {
   return was_interrupted;
 }
 
-/// Exit code for a law that was not found: it failed, or was interrupted.
-int not_tuned(const Result<std::optional<double>>& cost, const fs::path& output) {
-  return cost.has_value() ? stopped(output) : refused(cost.error());
-}
-
-int tune_car(TuneOptions options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refused(places.error());
+/// Finds the tuning of a car that begins with another one's, and writes it.
+int find_tuning(const TuneOptions& options, const fs::path& output, manoeuvre::Car car) {
+  const vehicle_study::TuningWork work{.program = "saca " SACA_VERSION,
+                                       .car = options.car,
+                                       .swerve_evaluations = options.swerve_evaluations,
+                                       .drift_evaluations = options.drift_evaluations,
+                                       .seed = options.seed,
+                                       .threads = options.threads,
+                                       .output = output,
+                                       .display = progress_display()};
+  const auto costs = vehicle_study::tune_laws(work, car);
+  if (!costs.has_value()) {
+    return refused(costs.error());
   }
-  const auto found = find_car(places.value(), options.car);
-  if (!found.has_value()) {
-    return refused(found.error());
-  }
-  const fs::path& car_file = found.value();
-  if (options.from.empty()) {
-    const bool tuned = fs::exists(prepare::tuning_path(car_file));
-    options.from = tuned ? options.car : TuneOptions{}.car;
-  }
-  const fs::path output =
-      options.output.empty() ? prepare::tuning_path(car_file) : fs::path(options.output);
-  const auto from = find_car(places.value(), options.from);
-  if (!from.has_value()) {
-    return refused(from.error());
-  }
-  const auto start = read_start(car_file, prepare::tuning_path(from.value()));
-  if (!start.has_value()) {
-    return refused(start.error());
-  }
-  if (const auto problem = long_work::why_outputs_unwritable({output})) {
-    return refused(*problem);
-  }
-  Car car = start.value();
-  long_work::watch_for_interrupt();
-
-  const fs::path swerve_journal = output.string() + ".swerve.journal";
-  const fs::path drift_journal = output.string() + ".drift.journal";
-  const auto swerve = tune_law(options, "lane change", manoeuvre::swerve_numbers,
-                               &manoeuvre::Tuning::swerve, tune::swerve_trials(options.seed),
-                               tune::swerve_cost, options.swerve_evaluations, swerve_journal, car);
-  if (!swerve.has_value() || !swerve.value()) {
-    return not_tuned(swerve, output);
-  }
-  const auto drift = tune_law(options, "T-drift", manoeuvre::drift_numbers,
-                              &manoeuvre::Tuning::drift, tune::drift_trials(options.seed),
-                              tune::drift_cost, options.drift_evaluations, drift_journal, car);
-  if (!drift.has_value() || !drift.value()) {
-    return not_tuned(drift, output);
+  if (!costs.value()) {
+    return stopped(output);
   }
   if (!settings().quiet) {
     app::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
@@ -185,28 +76,47 @@ int tune_car(TuneOptions options) {
     return stopped(output);
   }
   car.tuning.domain = *domain;
-
-  const std::string comment = fmt::format(
-      "Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/lab/tune/trials.h).",
-      command_line(options), *swerve.value(), *drift.value());
-  if (auto problem = long_work::write_output(output, prepare::tuning_text(car.tuning, comment))) {
+  const vehicle_study::TunedCar tuned{command_line(options), output.string(), car.tuning,
+                                      *costs.value()};
+  if (const auto problem = long_work::write_output(output, vehicle_study::tuning_file_of(tuned))) {
     return refused(*problem);
   }
-  fs::remove(swerve_journal);
-  fs::remove(drift_journal);
+  vehicle_study::remove_journals(work);
   if (options.as_json) {
-    app::print_json(nlohmann::json{{"schema", "saca.tune/1"},
-                                   {"output", output.string()},
-                                   {"swerve_cost", *swerve.value()},
-                                   {"drift_cost", *drift.value()},
-                                   {"drift_grip", manoeuvre::DriftDomain::grips},
-                                   {"drift_slowest_mps", car.tuning.domain.slowest},
-                                   {"drift_fastest_mps", car.tuning.domain.fastest}});
+    app::print_json(vehicle_study::json_of(tuned));
   } else {
-    app::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),
-               *drift.value());
+    app::print("{}", vehicle_study::text_of(tuned));
   }
   return success;
+}
+
+int tune_car(TuneOptions options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return refused(places.error());
+  }
+  const auto car_file = find_car(places.value(), options.car);
+  if (!car_file.has_value()) {
+    return refused(car_file.error());
+  }
+  const fs::path usual = prepare::tuning_path(car_file.value());
+  if (options.from.empty()) {
+    options.from = fs::exists(usual) ? options.car : TuneOptions{}.car;
+  }
+  const fs::path output = options.output.empty() ? usual : fs::path(options.output);
+  const auto from = find_car(places.value(), options.from);
+  if (!from.has_value()) {
+    return refused(from.error());
+  }
+  const auto start =
+      vehicle_study::read_start(car_file.value(), prepare::tuning_path(from.value()));
+  if (!start.has_value()) {
+    return refused(start.error());
+  }
+  if (const auto problem = long_work::why_outputs_unwritable({output})) {
+    return refused(*problem);
+  }
+  return find_tuning(options, output, start.value());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,15 +17,14 @@
 #include "saca/base/core/units.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/prepare/vehicle_file.h"
-#include "saca/lab/tune/fit_car_file.h"
 #include "saca/lab/tune/fit_drive.h"
-#include "saca/lab/tune/fit_vehicle.h"
+#include "saca/lab/vehicle_study/car_fit.h"
+#include "saca/lab/vehicle_study/fit_report.h"
 
 namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 struct FitOptions {
   std::vector<std::string> logs;
@@ -43,129 +43,91 @@ struct TestDriveOptions {
   tune::TestDrive drive;
 };
 
-json fit_json(const FitOptions& options, const tune::VehicleFit& fit) {
-  json parameters = json::array();
-  for (const tune::FittedParameter& one : fit.parameters) {
-    const auto bound = [&one](double value) { return one.determined ? json(value) : json(); };
-    parameters.push_back({{"section", one.section},
-                          {"key", one.key},
-                          {"base", one.base},
-                          {"value", one.value},
-                          {"determined", one.determined},
-                          {"low", bound(one.low)},
-                          {"high", bound(one.high)}});
-  }
-  json signals = json::array();
-  for (const tune::SignalQuality& one : fit.signals) {
-    signals.push_back({{"log", one.log},
-                       {"column", tune::info(one.signal).column},
-                       {"noise", one.noise},
-                       {"rms", one.rms},
-                       {"offset", one.offset},
-                       {"run", one.run},
-                       {"outliers", one.num_outliers}});
-  }
-  return {{"schema", "saca.vehicle_fit/1"}, {"car", options.car}, {"output", options.output},
-          {"parameters", parameters},       {"signals", signals}, {"condition", fit.condition},
-          {"warnings", fit.warnings}};
-}
-
-void print_fit(const FitOptions& options, const tune::VehicleFit& fit) {
-  app::print("{:<26} {:>9} {:>9}   {}\n", "parameter", "base", "fitted", "95 % interval");
-  for (const tune::FittedParameter& one : fit.parameters) {
-    const std::string name = fmt::format("{}.{}", one.section, one.key);
-    if (one.determined) {
-      app::print("{:<26} {:>9.4g} {:>9.4g}   {:.4g} to {:.4g}\n", name, one.base, one.value,
-                 one.low, one.high);
-    } else {
-      app::print("{:<26} {:>9.4g} {:>9}   the logs do not determine it\n", name, one.base, "-");
-    }
-  }
-  app::print("\n{:<26} {:>9} {:>9} {:>9}   {}\n", "signal", "rms", "noise", "offset", "log");
-  for (const tune::SignalQuality& one : fit.signals) {
-    app::print("{:<26} {:>9.2g} {:>9.2g} {:>9.2g}   {}\n", tune::info(one.signal).column, one.rms,
-               one.noise, one.offset, one.log);
-  }
-  app::print("\n{}: the car as fitted; the grip is the road's and not in it\n", options.output);
-}
-
 bool is_same_file(const fs::path& one, const fs::path& other) {
   std::error_code problem;
   return fs::equivalent(one, other, problem);  // false where one of them is not there
 }
 
-int refuse(const std::string& message, ExitCode code) {
-  complain(message);
-  return code;
-}
-
-int fit_car(const FitOptions& options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refuse(places.error().message, bad_input);
-  }
-  const auto found = find_car(places.value(), options.car);
-  if (!found.has_value()) {
-    return refused(found.error());
-  }
-  const fs::path& base = found.value();
-  if (is_same_file(options.output, base) && !options.force) {
-    return refuse(fmt::format("--output: {} is the base itself; want another name, or --force",
-                              options.output),
-                  wrong_command_line);
-  }
-  const auto text = read_file(base);
-  if (!text.has_value()) {
-    return refuse(text.error().message, bad_input);
-  }
-  const auto car = prepare::parse_vehicle(text.value(), base.string());
-  if (!car.has_value()) {
-    return refuse(car.error().message, bad_input);
-  }
+/// The logs of a fit, in order.
+/// @return  nullopt: one of them is the output
+Result<std::optional<std::vector<tune::Log>>> read_logs(const FitOptions& options,
+                                                        const vehicle::Vehicle& car) {
   std::vector<tune::Log> logs;
-  std::string names;
   for (const std::string& name : options.logs) {
     if (is_same_file(options.output, name)) {
-      return refuse(fmt::format("--output: {} is a log", options.output), wrong_command_line);
+      return std::optional<std::vector<tune::Log>>();
     }
     const auto csv = read_file(name);
     if (!csv.has_value()) {
-      return refuse(csv.error().message, bad_input);
+      return csv.error();
     }
-    auto log = tune::read_log(csv.value(), name, car.value());
+    auto log = tune::read_log(csv.value(), name, car);
     if (!log.has_value()) {
-      return refuse(log.error().message, bad_input);
+      return log.error();
     }
     logs.push_back(std::move(log).value());
-    names += (names.empty() ? "" : ", ") + fs::path(name).filename().string();
   }
+  return std::optional(std::move(logs));
+}
 
-  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
+/// Fits, writes the fitted car's file, and tells of it.
+int fit_and_tell(const FitOptions& options, const vehicle_study::BaseCar& base,
+                 const std::vector<tune::Log>& logs) {
+  const auto fitted = vehicle_study::fit_car(base, options.grip, logs);
+  if (!fitted.has_value()) {
+    return refused(fitted.error());
+  }
+  if (const auto problem = long_work::write_output(options.output, fitted.value().file)) {
     return refused(*problem);
   }
-  const tune::VehicleFit fit = tune::fit_vehicle(car.value(), options.grip, logs);
-  const auto fitted = tune::fitted_car_file(text.value(), base.string(), names, fit);
-  if (!fitted.has_value()) {
-    return refuse(fitted.error().message, bad_input);
-  }
-  if (const auto problem = long_work::write_output(options.output, fitted.value())) {
-    return refuse(problem->message, cannot_write);
-  }
+  const vehicle_study::FitResult result{options.car, options.output, fitted.value().fit};
   if (options.as_json) {
-    app::print_json(fit_json(options, fit));
+    app::print_json(vehicle_study::json_of(result));
   } else {
-    print_fit(options, fit);
+    app::print("{}", vehicle_study::text_of(result));
   }
-  for (const std::string& warning : fit.warnings) {
+  for (const std::string& warning : result.fit.warnings) {
     app::print(stderr, "saca: warning: {}\n", warning);
   }
   return success;
 }
 
+int fit_car(const FitOptions& options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return refused(places.error());
+  }
+  const auto file = find_car(places.value(), options.car);
+  if (!file.has_value()) {
+    return refused(file.error());
+  }
+  if (is_same_file(options.output, file.value()) && !options.force) {
+    complain(fmt::format("--output: {} is the base itself; want another name, or --force",
+                         options.output));
+    return wrong_command_line;
+  }
+  const auto base = vehicle_study::read_base(file.value());
+  if (!base.has_value()) {
+    return refused(base.error());
+  }
+  const auto logs = read_logs(options, base.value().car);
+  if (!logs.has_value()) {
+    return refused(logs.error());
+  }
+  if (!logs.value()) {
+    complain(fmt::format("--output: {} is a log", options.output));
+    return wrong_command_line;
+  }
+  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
+  return fit_and_tell(options, base.value(), *logs.value());
+}
+
 int drive_test(const TestDriveOptions& options) {
   const auto places = find_places();
   if (!places.has_value()) {
-    return refuse(places.error().message, bad_input);
+    return refused(places.error());
   }
   const auto file = find_car(places.value(), options.car);
   if (!file.has_value()) {
@@ -173,14 +135,14 @@ int drive_test(const TestDriveOptions& options) {
   }
   const auto car = prepare::read_vehicle(file.value());
   if (!car.has_value()) {
-    return refuse(car.error().message, bad_input);
+    return refused(car.error());
   }
   tune::TestDrive drive = options.drive;
   drive.kind = options.kind == "brake" ? tune::TestKind::brake : tune::TestKind::steer;
   drive.steering = from_degrees(options.steering_deg);
   const tune::Log log = tune::drive_test(car.value(), drive);
   if (const auto problem = long_work::write_output(options.output, tune::write_log(log))) {
-    return refuse(problem->message, cannot_write);
+    return refused(*problem);
   }
   app::print("{}: {} of {} rows\n", options.output, name_of(log.kind, tune::kind_names),
              log.time.size());

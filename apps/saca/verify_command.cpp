@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
@@ -15,6 +12,7 @@
 #include "saca/base/core/printable.h"
 #include "saca/base/formats/json_text.h"
 #include "saca/lab/encounter/provenance.h"
+#include "saca/lab/encounter/record_check.h"
 #include "saca/lab/report/record_in_words.h"
 
 namespace saca::app {
@@ -25,15 +23,6 @@ using nlohmann::json;
 struct VerifyOptions {
   std::string record;
   bool as_json = false;
-};
-
-/// One thing that a record depends on: as it was recorded, and as it is here.
-struct Dependency {
-  std::string what;
-  std::string name;
-  json recorded;
-  json here;          ///< null: it is not here
-  std::string lacks;  ///< why not
 };
 
 /// What the same run would read now; an error that says what of it is not here.
@@ -53,42 +42,26 @@ Result<json> read_now(const std::string& car, bool with_atlas) {
                                 inputs.value().intent, car);
 }
 
-/// One of a list of inputs; nullptr: there is none.
-const json* input_called(const json& inputs, std::string_view what) {
-  const auto found = std::find_if(inputs.begin(), inputs.end(),
-                                  [&](const json& one) { return one.at("what") == what; });
-  return found == inputs.end() ? nullptr : &*found;
+/// What a record's `made` names, as it is here.
+encounter::InputsHere inputs_here(const Places& places, const json& made) {
+  const encounter::RecordedInputs recorded = encounter::recorded_inputs(made);
+  return {.inputs = read_now(recorded.car, recorded.with_atlas),
+          .digest_of = [&](const std::string& name) { return scenario_digest(places, name); }};
 }
 
-/// @param made  of a record
-Result<std::vector<Dependency>> compared(const json& made) {
+int check_and_tell(const VerifyOptions& options, const json& record) {
   const auto places = find_places();
   if (!places.has_value()) {
-    return places.error();
+    return refused(places.error());
   }
-  const json& inputs = made.at("inputs");
-  const json* const car = input_called(inputs, "car");
-  const json* const atlas = input_called(inputs, "atlas");
-  const auto now = read_now(car == nullptr ? "" : car->at("name").get<std::string>(),
-                            atlas != nullptr && !atlas->at("digest").is_null());
-  std::vector<Dependency> all;
-  for (const json& one : inputs) {
-    Dependency& told = all.emplace_back(Dependency{.what = one.at("what").get<std::string>(),
-                                                   .name = one.at("name").get<std::string>(),
-                                                   .recorded = one.at("digest"),
-                                                   .here = nullptr,
-                                                   .lacks = ""});
-    if (told.what == "scenario") {
-      const auto digest = scenario_digest(places.value(), told.name);
-      told.here = digest.has_value() ? json(digest.value()) : json(nullptr);
-      told.lacks = digest.has_value() ? "" : digest.error().message;
-    } else if (!now.has_value()) {
-      told.lacks = now.error().message;
-    } else if (const json* const same = input_called(now.value(), told.what)) {
-      told.here = same->at("digest");
-    }
+  const encounter::RecordCheck check =
+      encounter::check_record(record, inputs_here(places.value(), record.at("made")));
+  if (options.as_json) {
+    app::print_json(encounter::json_of(check));
+  } else {
+    app::print("{}", encounter::text_of(check));
   }
-  return all;
+  return check.is_same() ? success : not_the_same;
 }
 
 int verify(const VerifyOptions& options) {
@@ -108,48 +81,7 @@ int verify(const VerifyOptions& options) {
     return malformed("made: want who made the record by what, got none: it is older than that");
   }
   try {
-    const json& made = *found;
-    const auto recorded = made.at("content").get<std::string>();
-    const std::string content = encounter::content_digest(record);
-    const auto all = compared(made);
-    if (!all.has_value()) {
-      return refused(all.error());
-    }
-    bool same = recorded == content;
-    json inputs = json::array();
-    for (const Dependency& one : all.value()) {
-      same = same && one.recorded == one.here;
-      inputs.push_back({{"what", one.what},
-                        {"name", one.name},
-                        {"recorded", one.recorded},
-                        {"here", one.here},
-                        {"same", one.recorded == one.here}});
-    }
-    if (options.as_json) {
-      print_json(json{{"schema", "saca.verification/1"},
-                      {"program", made.at("program")},
-                      {"commit", made.at("commit")},
-                      {"date", made.at("date")},
-                      {"command", made.at("command")},
-                      {"content", {{"recorded", recorded}, {"here", content}}},
-                      {"inputs", inputs},
-                      {"same", same}});
-      return same ? success : not_the_same;
-    }
-    const auto words = [&](const char* key) {
-      return one_line(made.at(key).get<std::string>(), 2'000);
-    };
-    app::print("Made by {} ({}), {}:\n  {}\n", words("program"), words("commit"), words("date"),
-               words("command"));
-    app::print("  {:<12} {}\n", "content",
-               recorded == content ? "as it was written" : "has been changed since");
-    for (const Dependency& one : all.value()) {
-      const std::string state = one.recorded == one.here ? "the same here"
-                                : one.here.is_null()     ? "not here: " + one.lacks
-                                                         : "another one here";
-      app::print("  {:<12} {}: {}\n", one.what, one_line(one.name), one_line(state, 2'000));
-    }
-    return same ? success : not_the_same;
+    return check_and_tell(options, record);
   } catch (const json::exception& problem) {
     return malformed(std::string("made: want it whole, got: ") + one_line(problem.what()));
   }

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "saca/lab/encounter/hindsight.h"
 #include "saca/lab/eval/oracle.h"
-#include "saca/lab/eval/survey.h"
 #include "saca/lab/report/contact_sheet.h"
 #include "saca/lab/scenario/scenario.h"
 
-namespace saca::app {
+namespace saca::policy_study {
 
 /// One policy as written, ready to be drawn; the title is the policy's name.
 [[nodiscard]] report::SceneView view_of(const world::Scene& scene,
@@ -18,4 +15,4 @@ namespace saca::app {
 [[nodiscard]] report::ContactSheet sheet_of(const eval::Oracle& oracle,
                                             const scenario::Scenario& scenario);
 
-}  // namespace saca::app
+}  // namespace saca::policy_study

@@ -1,10 +1,10 @@
-#include "apps/saca/pictures.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 
 #include <fmt/core.h>
 
 #include "saca/thinking/rollout/describe.h"
 
-namespace saca::app {
+namespace saca::policy_study {
 
 report::SceneView view_of(const world::Scene& scene, const encounter::Hindsight& tried) {
   const preview::PolicyFacts& facts = tried.facts;
@@ -55,4 +55,4 @@ report::ContactSheet sheet_of(const eval::Oracle& oracle, const scenario::Scenar
   return sheet;
 }
 
-}  // namespace saca::app
+}  // namespace saca::policy_study
