@@ -98,7 +98,7 @@ int build_cases(const CasesBuildOptions& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    print_figures(cases::tally_json(sources.value(), tallies, set), command_of(options));
+    print_with_meta(cases::tally_json(sources.value(), tallies, set), command_of(options));
   } else {
     app::print("{}", cases::tally_text(sources.value(), tallies, set, options.outputs.cases));
   }

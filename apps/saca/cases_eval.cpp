@@ -43,7 +43,7 @@ int tell_replies(const std::vector<eval::ExampleReply>& replies, std::size_t fai
   if (options.as_json) {
     nlohmann::json figures = cases::score_json(score, failed);
     figures["meta.model"] = model;
-    print_figures(std::move(figures), command_of(options));
+    print_with_meta(std::move(figures), command_of(options));
   } else {
     app::print("{}", cases::score_text(score, options.set, model));
   }

@@ -63,7 +63,7 @@ int export_cases(const CasesExportOptions& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    print_figures(cases::sets_json(source, tallies, problems.size()), command);
+    print_with_meta(cases::sets_json(source, tallies, problems.size()), command);
   } else {
     app::print("{}", cases::sets_text(source, tallies, options.output));
   }
