@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,7 +9,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/file.h"
-#include "saca/lab/eval/chat_set.h"
+#include "saca/lab/cases/chat_set_report.h"
 
 namespace saca::app {
 namespace {
@@ -33,16 +31,9 @@ int check_sets(const CasesCheckOptions& options) {
     if (!checked.has_value()) {
       return refused(checked.error());
     }
-    const eval::ChatSetFigures& figures = checked.value();
-    out.push_back({{"file", file},
-                   {"examples", figures.examples},
-                   {"tokens_at_most", figures.tokens},
-                   {"learnt_tokens_at_most", figures.learnt_tokens},
-                   {"longest_tokens_at_most", figures.longest}});
+    out.push_back(cases::chat_set_json(file, checked.value()));
     if (!options.as_json) {
-      app::print(
-          "{}: {} examples, up to {} tokens, of them up to {} to be learnt, up to {} in one\n",
-          file, figures.examples, figures.tokens, figures.learnt_tokens, figures.longest);
+      app::print("{}", cases::chat_set_text(file, checked.value()));
     }
   }
   if (options.as_json) {

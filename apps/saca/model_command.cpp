@@ -1,6 +1,4 @@
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <utility>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
@@ -8,6 +6,7 @@
 #include "apps/saca/model_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
+#include "saca/lab/model_trials/model_info.h"
 
 namespace saca::app {
 namespace {
@@ -26,23 +25,11 @@ int model_info(bool as_json) {
   if (!info.has_value()) {
     return unanswered(info.error());
   }
-  constexpr double mebi = 1024.0 * 1024.0;
-  const nlohmann::json out{
-      {"description", info.value().description},
-      {"file", info.value().file},
-      {"weights_mib", static_cast<double>(info.value().weight_bytes) / mebi},
-      {"resident_mib", static_cast<double>(info.value().resident_bytes) / mebi},
-      {"threads", info.value().threads},
-      {"load_s", model.value()->figures().load_time},
-      {"system_tokens", model.value()->figures().system_tokens}};
+  const nlohmann::json out = model_trials::model_info(info.value(), model.value()->figures());
   if (as_json) {
-    nlohmann::json all = out;
-    all["schema"] = "saca.model_info/1";
-    app::print_json(std::move(all));
-    return success;
-  }
-  for (const auto& [key, value] : out.items()) {
-    app::print("{:14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    app::print_json(model_trials::model_info_json(out));
+  } else {
+    app::print("{}", model_trials::model_info_text(out));
   }
   return success;
 }

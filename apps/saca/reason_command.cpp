@@ -1,38 +1,26 @@
-#include <unistd.h>
-
+#include <chrono>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/danger_making.h"
-#include "apps/saca/first_question.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
-#include "saca/thinking/arbitration/check.h"
-#include "saca/thinking/arbitration/event.h"
-#include "saca/thinking/language_model/explanation_json.h"
+#include "saca/lab/model_trials/first_question.h"
+#include "saca/lab/model_trials/reason_report.h"
+#include "saca/lab/model_trials/reply_stream.h"
 #include "saca/thinking/language_model/prompt.h"
-#include "saca/thinking/language_model/reply.h"
-#include "saca/thinking/language_model/truth.h"
-#include "saca/thinking/language_model/truth_json.h"
 
 namespace saca::app {
 namespace {
 
-using arbitration::Preview;
-using language_model::Answer;
-using language_model::Progress;
-using language_model::Reply;
-using manoeuvre::PolicyId;
-using nlohmann::json;
+using model_trials::ForecastReply;
 
 struct ReasonOptions {
   std::string scenario;
@@ -42,232 +30,92 @@ struct ReasonOptions {
   bool as_json = false;
 };
 
-double milliseconds(Clock::Time time) {
-  return 1e3 * to_seconds(time);
-}
-
-/// Writes what several replies say while they grow: one as it comes, more of them line by line.
-class Stream {
- public:
-  explicit Stream(std::size_t num_scenes) : lines_(num_scenes) {}
-
-  void take(std::size_t scene, std::string_view text) {
-    if (lines_.size() == 1) {
-      app::print("{}", text);
-      std::fflush(stdout);
-      return;
-    }
-    std::string& line = lines_.at(scene);
-    line += text;
-    for (std::size_t end = line.find('\n'); end != std::string::npos; end = line.find('\n')) {
-      tell(scene, line.substr(0, end));
-      line.erase(0, end + 1);
-    }
+/// Asks, telling the text while it comes if that is wanted.
+Result<std::vector<ForecastReply>> ask(const std::vector<arbitration::Preview>& previews,
+                                       language_model::LanguageModel& model,
+                                       const preview::ForecastTools& tools,
+                                       const ReasonOptions& options, const Clock& clock) {
+  if (previews.empty()) {
+    return std::vector<ForecastReply>();
   }
-  void end() {
-    for (std::size_t scene = 0; scene < lines_.size(); ++scene) {
-      if (lines_.size() > 1 && !lines_[scene].empty()) {
-        tell(scene, lines_[scene]);
-      }
-    }
-    app::print("\n");
-  }
-
- private:
-  static void tell(std::size_t scene, std::string_view line) {
-    app::print("{} | {}\n", scene + 1, line);
-    std::fflush(stdout);
-  }
-
-  std::vector<std::string> lines_;
-};
-
-/// One forecast, and what was said of it.
-struct ForecastReply {
-  const Preview* preview = nullptr;
-  Reply reply;
-  language_model::Truth truth;
-  std::optional<arbitration::Check> check;                 ///< of what was last chosen
-  std::optional<language_model::Explanation> explanation;  ///< of that, where it can be driven
-};
-
-json considered_json(const ForecastReply& one) {
-  json answers = json::array();
-  for (const Answer& answer : one.reply.answers) {
-    answers.push_back({{"after_ms", milliseconds(answer.time)},
-                       {"kind", name(answer.kind)},
-                       {"policy", manoeuvre::index(likeliest_policy(answer))},
-                       {"probability", answer.probability}});
-  }
-  return {{"probability", one.preview->situation.probability},
-          {"trigger_s", one.preview->situation.scene_at_trigger.time},
-          {"prompt", one.preview->prompt},
-          {"reasoning", one.reply.reasoning},
-          {"answers", answers},
-          {"prompt_tokens", one.reply.prompt_tokens},
-          {"reply_tokens", one.reply.reply_tokens},
-          {"truth", truth_json(one.truth)},
-          {"explanation", explanation_json(one.explanation)},
-          {"check",
-           one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
-}
-
-void tell_considered(std::size_t number, const ForecastReply& one, bool with_text) {
-  app::print("--- Forecast {} ---\n", number);
-  if (with_text) {
-    app::print("{}\n", one.reply.reasoning);
-  }
-  app::print("{:>9} {:>7}", "after", "answer");
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    app::print(" {:>7}", name(policy));
-  }
-  app::print("\n");
-  for (const Answer& answer : one.reply.answers) {
-    app::print("{:>6.0f} ms {:>7}", milliseconds(answer.time), name(answer.kind));
-    for (const double p : answer.probability) {
-      app::print(" {:>5.0f} %", 100.0 * p);
-    }
-    app::print("\n");
-  }
-  const auto num_checked = static_cast<std::size_t>(one.truth.num_checked);
-  app::print("Truth: {} of {} statements that can be checked.\n",
-             num_checked - one.truth.wrong.size(), num_checked);
-  for (const language_model::FalseStatement& each : one.truth.wrong) {
-    app::print("  false{}: \"{}\": {}\n", each.load_bearing ? ", and the choice rests on it" : "",
-               each.text, each.why);
-  }
-  if (one.reply.answers.empty()) {
-    app::print("No answer in time.\n\n");
-    return;
-  }
-  const PolicyId chosen = likeliest_policy(one.reply.answers.back());
-  if (one.explanation) {
-    const std::string in_try =
-        one.explanation->tries > 1 ? fmt::format(", try {}", one.explanation->tries) : "";
-    app::print("Reasons, {}{}:\n{}",
-               one.explanation->from == language_model::Explanation::From::facts ? "by the figures"
-                                                                                 : "as far as true",
-               in_try, one.explanation->text);
-  }
-  app::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
-             manoeuvre::index(chosen), name(chosen), one.check->passed ? "passed" : "failed",
-             one.check->text, one.reply.prompt_tokens, one.reply.reply_tokens);
-}
-
-void tell_question(const std::vector<Preview>& previews) {
-  for (const Preview& preview : previews) {
-    const preview::Situation& situation = preview.situation;
-    app::print("--- Forecast {} of {}: {:.0f} % likely, trigger at {:.2f} s ---\n{}\n",
-               preview.number + 1, previews.size(), 100.0 * situation.probability,
-               situation.scene_at_trigger.time, preview.prompt);
-  }
-}
-
-/// Asks, telling the text while it comes if that is wanted. Answers are dated from the question.
-Result<std::vector<Reply>> ask(language_model::LanguageModel& model,
-                               const std::vector<Preview>& previews, const ReasonOptions& options,
-                               const Clock& clock) {
-  std::vector<std::string> scenes;
-  scenes.reserve(previews.size());
-  for (const Preview& preview : previews) {
-    scenes.push_back(preview.prompt);
-  }
-  Stream stream(scenes.size());
   const bool streams = options.stream && !options.as_json;
-  const Clock::Time begin = clock.now();
-  auto replies = model.ask(scenes, begin + std::chrono::milliseconds(options.deadline),
-                           [&](const Progress& news) {
-                             if (streams && !news.text.empty()) {
-                               stream.take(news.prompt, news.text);
-                             }
-                           });
+  model_trials::ReplyStream stream(previews.size(), [](const std::string& text) {
+    app::print("{}", text);
+    std::fflush(stdout);
+  });
+  auto replies =
+      model_trials::replies_about(previews, model, std::chrono::milliseconds(options.deadline),
+                                  clock, [&](std::size_t number, std::string_view text) {
+                                    if (streams) {
+                                      stream.take(number, text);
+                                    }
+                                  });
   if (streams) {
     stream.end();
   }
-  if (replies.has_value()) {
-    std::vector<Reply> dated = std::move(replies).value();
-    for (Reply& reply : dated) {
-      for (Answer& answer : reply.answers) {
-        answer.time -= begin;
-      }
-    }
-    return dated;
+  if (!replies.has_value()) {
+    return replies.error();
   }
-  return replies;
+  return model_trials::considered(previews, std::move(replies).value(), tools, model, clock);
+}
+
+void tell(const std::vector<ForecastReply>& replies, const ScenarioInputs& inputs,
+          const std::string& model, const ReasonOptions& options) {
+  if (options.as_json) {
+    app::print_json(model_trials::reason_json({.scenario = inputs.scenario.name,
+                                               .model = model,
+                                               .deadline = options.deadline,
+                                               .system = language_model::system_part(inputs.harm)},
+                                              replies));
+  } else {
+    app::print("{}", model_trials::replies_text(replies, options.stream
+                                                             ? model_trials::ReasoningText::seen
+                                                             : model_trials::ReasoningText::told));
+  }
 }
 
 int reason_about(const ReasonOptions& options) {
-  const auto inputs = read_scenario_inputs(options.scenario);
-  if (!inputs.has_value()) {
-    return refused(inputs.error());
+  const auto read = read_scenario_inputs(options.scenario);
+  if (!read.has_value()) {
+    return refused(read.error());
   }
+  const ScenarioInputs& inputs = read.value();
   SteadyClock clock;
-  const auto model =
-      open_needed_model(inputs.value().places, options.model, runtime::Pace::real, clock);
+  const auto model = open_needed_model(inputs.places, options.model, runtime::Pace::real, clock);
   if (!model.has_value()) {
     return refused(model.error());
   }
-  const atlas::Atlas atlas = usual_atlas(inputs.value());
-  const auto danger = usual_danger(inputs.value(), false);
+  const atlas::Atlas atlas = usual_atlas(inputs);
+  const auto danger = usual_danger(inputs, false);
   if (!danger.has_value()) {
     return refused(danger.error());
   }
-  const preview::ForecastTools tools{.car = &inputs.value().car,
-                                     .harm = &inputs.value().harm,
+  const preview::ForecastTools tools{.car = &inputs.car,
+                                     .harm = &inputs.harm,
                                      .atlas = &atlas,
                                      .danger = danger.value() ? &*danger.value() : nullptr,
-                                     .cues = &inputs.value().cues};
-  const auto asked = first_question(inputs.value(), tools, clock);
+                                     .cues = &inputs.cues};
+  const auto asked = model_trials::first_question({.scenario = &inputs.scenario,
+                                                   .car = tools.car,
+                                                   .harm = tools.harm,
+                                                   .intent = &inputs.intent,
+                                                   .atlas = tools.atlas,
+                                                   .danger = tools.danger,
+                                                   .cues = tools.cues,
+                                                   .clock = &clock});
   if (!asked.has_value()) {
     return refused(asked.error());
   }
-  const std::vector<Preview>& previews = asked.value().previews;
+  const std::string description = model.value()->description();
   if (!options.as_json) {
-    app::print("{}\nLanguage model: {}.\n\n", inputs.value().scenario.title,
-               model.value()->description());
-    tell_question(previews);
+    app::print("{}\nLanguage model: {}.\n\n{}", inputs.scenario.title, description,
+               model_trials::question_text(asked.value()));
   }
-  std::vector<ForecastReply> all;
-  if (!previews.empty()) {
-    auto replies = ask(*model.value(), previews, options, clock);
-    if (!replies.has_value()) {
-      return unanswered(replies.error());
-    }
-    std::vector<Reply> said = std::move(replies).value();
-    for (std::size_t i = 0; i < said.size(); ++i) {
-      ForecastReply one{.preview = &previews[i], .reply = std::move(said[i])};
-      const preview::Situation& situation = one.preview->situation;
-      if (!one.reply.answers.empty()) {
-        const PolicyId chosen = likeliest_policy(one.reply.answers.back());
-        one.check =
-            arbitration::check(situation.facts[manoeuvre::index(chosen)].plan, situation, tools);
-      }
-      one.truth = language_model::truth_of(one.reply, one.preview->prompt, situation);
-      Preview replied = *one.preview;
-      replied.reply = one.reply;
-      one.explanation = arbitration::retold(replied, *model.value(), clock);
-      all.push_back(std::move(one));
-    }
+  const auto replies = ask(asked.value(), *model.value(), tools, options, clock);
+  if (!replies.has_value()) {
+    return unanswered(replies.error());
   }
-  if (options.as_json) {
-    json document = {{"schema", "saca.reason/1"},
-                     {"scenario", inputs.value().scenario.name},
-                     {"model", model.value()->description()},
-                     {"deadline_ms", options.deadline},
-                     {"system", language_model::system_part(inputs.value().harm)},
-                     {"forecasts", json::array()}};
-    for (const ForecastReply& one : all) {
-      document["forecasts"].push_back(considered_json(one));
-    }
-    app::print_json(document);
-    return success;
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    tell_considered(i + 1, all[i], !options.stream);
-  }
-  if (all.empty()) {
-    app::print("Nothing threatens in this scenario: there is nothing to ask.\n");
-  }
+  tell(replies.value(), inputs, description, options);
   return success;
 }
 

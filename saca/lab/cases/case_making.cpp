@@ -1,4 +1,4 @@
-#include "apps/saca/cases_making.h"
+#include "saca/lab/cases/case_making.h"
 
 #include <fmt/core.h>
 
@@ -8,11 +8,13 @@
 #include "saca/base/core/fnv.h"
 #include "saca/base/formats/json_reader.h"
 #include "saca/base/formats/json_text.h"
+#include "saca/lab/cases/case_stage.h"
 #include "saca/lab/crash_records/facts.h"
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/eval/suite.h"
+#include "saca/lab/long_work/resumable_work.h"
 
-namespace saca::app {
+namespace saca::cases {
 
 std::string case_row_line(const CaseRow& row) {
   return nlohmann::json{{"family", row.family},
@@ -47,8 +49,11 @@ Result<CaseRow> case_row_from(const std::string& line) {
 }
 
 CaseMaking::CaseMaking(const CaseMakingOptions& options, const CaseSources& sources,
-                       const PlanesOfCar& planes)
-    : options_(options), sources_(sources), planes_(planes), made_with_(made_with(planes)) {}
+                       CaseTools tools)
+    : options_(options),
+      sources_(sources),
+      tools_(std::move(tools)),
+      made_with_(encounter::made_with(tools_.forecast, *tools_.intent, tools_.car_name)) {}
 
 CaseRow CaseMaking::row(std::size_t number) const {
   return number < sources_.prospects.size()
@@ -73,31 +78,13 @@ std::uint64_t CaseMaking::digest() const {
   return hash.value();
 }
 
-scenario::Scenario case_world(const scenario::Scenario& drawn, std::uint64_t seed) {
-  return eval::as_played(drawn, {.methods = {}, .seed = seed});
-}
-
-std::uint64_t number_of_record(const std::string& name) {
-  return fnv1a(name);
-}
-
-encounter::Stage case_stage(const scenario::Scenario& world, const Inputs& inputs,
-                            std::uint64_t seed, const std::string& name) {
-  return {.scenario = &world,
-          .car = &inputs.car,
-          .harm = &inputs.harm,
-          .intent = &inputs.intent,
-          .thresholds = {},
-          .chance = eval::chance_of({.methods = {}, .seed = seed}, number_of_record(name))};
-}
-
 void CaseMaking::judge(CaseRow& row, eval::CrashCase made,
                        const scenario::Scenario& scenario) const {
   const scenario::Scenario world = case_world(scenario, options_.seed);
-  const encounter::Stage stage = case_stage(world, planes_.inputs, options_.seed, made.record.name);
+  const encounter::Stage stage = case_stage(world, tools_, options_.seed, made.record.name);
   eval::JudgingOptions judging = options_.judging;
   judging.seed = eval::encounter_seed(options_.seed, number_of_record(made.record.name));
-  auto judged = eval::judged_encounter(stage, planes_.setup.forecast, judging, made_with_);
+  auto judged = eval::judged_encounter(stage, tools_.forecast, judging, made_with_);
   if (!judged.has_value()) {
     row.problem = made.record.name + ": " + judged.error().message;
   } else if (judged.value()) {
@@ -112,8 +99,8 @@ CaseRow CaseMaking::row_of(const CrashProspect& prospect) const {
   const crash_records::FarsVehicle& ego = crash.vehicles[prospect.roles.ego];
   CaseRow row{.family = std::string(name(prospect.roles.family))};
   eval::CrashFound found = eval::find_crash(
-      prospect.family, prospect.roles.struck, options_.seed, planes_.inputs.car_name,
-      planes_.inputs.car, planes_.inputs.harm, static_cast<std::uint64_t>(options_.tries));
+      prospect.family, prospect.roles.struck, options_.seed, tools_.car_name, *tools_.forecast.car,
+      *tools_.forecast.harm, static_cast<std::uint64_t>(options_.tries));
   row.end = found.end;
   if (found.end != eval::CrashEnd::happens) {
     return row;
@@ -146,9 +133,9 @@ CaseRow CaseMaking::row_of(const CrashProspect& prospect) const {
 
 CaseRow CaseMaking::row_of(const importers::HundredCarOutcome& event) const {
   scenario::Scenario scenario = event.rebuilt()->scenario;
-  scenario.car = planes_.inputs.car_name;
+  scenario.car = tools_.car_name;
   const auto as_written =
-      eval::trigger_as_written(scenario, planes_.inputs.car, planes_.inputs.harm);
+      eval::trigger_as_written(scenario, *tools_.forecast.car, *tools_.forecast.harm);
   CaseRow row{.family = "100car",
               .end = !as_written           ? eval::CrashEnd::never_triggers
                      : as_written->contact ? eval::CrashEnd::happens
@@ -164,4 +151,19 @@ CaseRow CaseMaking::row_of(const importers::HundredCarOutcome& event) const {
   return row;
 }
 
-}  // namespace saca::app
+Result<std::optional<std::vector<CaseRow>>> case_rows(const CaseMaking& making,
+                                                      const CaseWork& work) {
+  return long_work::rows_of<CaseRow>(
+      {.journal = work.journal,
+       .title = fmt::format("{} ({:016x})", work.title, making.digest()),
+       .progress = "cases of crashes",
+       .unit = "records",
+       .count = making.size(),
+       .display = work.display,
+       .threads = work.threads,
+       .row = [&](std::size_t number) { return making.row(number); },
+       .line_of = case_row_line,
+       .row_from = case_row_from});
+}
+
+}  // namespace saca::cases

@@ -2,18 +2,19 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/saca/inputs.h"
+#include "saca/base/core/result.h"
 #include "saca/lab/crash_records/fars.h"
 #include "saca/lab/crash_records/fars_codes.h"
 #include "saca/lab/crash_records/roles.h"
 #include "saca/lab/families/family.h"
 #include "saca/lab/importers/hundred_car_release.h"
 
-namespace saca::app {
+namespace saca::cases {
 
 /// A crash of which an encounter may be made.
 struct CrashProspect {
@@ -41,12 +42,13 @@ struct CaseSources {
 
 /// Reads releases of FARS, and of the 100-Car study.
 ///
+/// @param root         holds the program's own data/ and scenarios/
 /// @param folders      of FARS, one release each
 /// @param hundred_car  empty: without
 /// @param count        at most so many crashes, of the families in turn; nullopt: all
-[[nodiscard]] Result<CaseSources> open_case_sources(const Places& places,
+[[nodiscard]] Result<CaseSources> open_case_sources(const std::filesystem::path& root,
                                                     const std::vector<std::string>& folders,
                                                     const std::string& hundred_car,
                                                     const std::optional<int>& count);
 
-}  // namespace saca::app
+}  // namespace saca::cases

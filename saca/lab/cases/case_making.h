@@ -6,13 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "apps/saca/cases_sources.h"
-#include "apps/saca/planes_making.h"
+#include "saca/base/core/result.h"
+#include "saca/lab/cases/case_sources.h"
+#include "saca/lab/cases/case_tools.h"
 #include "saca/lab/eval/crash_case.h"
 #include "saca/lab/eval/crash_search.h"
+#include "saca/lab/long_work/progress.h"
+#include "saca/lab/scenario/scenario.h"
 #include "saca/thinking/memory/case.h"
 
-namespace saca::app {
+namespace saca::cases {
 
 /// What became of one record; as a line of the journal.
 struct CaseRow {
@@ -24,19 +27,6 @@ struct CaseRow {
 [[nodiscard]] std::string case_row_line(const CaseRow& row);
 [[nodiscard]] Result<CaseRow> case_row_from(const std::string& line);
 
-// How an encounter of a record is played. Perception and chance are drawn by its name: which others
-// are worked on does not matter.
-
-/// Its number, by the record's name.
-[[nodiscard]] std::uint64_t number_of_record(const std::string& name);
-
-/// @param drawn  as its family or record has it
-[[nodiscard]] scenario::Scenario case_world(const scenario::Scenario& drawn, std::uint64_t seed);
-/// @param world   outlives the stage, as do the inputs
-/// @param name    of the record, or of its twin
-[[nodiscard]] encounter::Stage case_stage(const scenario::Scenario& world, const Inputs& inputs,
-                                          std::uint64_t seed, const std::string& name);
-
 /// How cases are made of records.
 struct CaseMakingOptions {
   std::uint64_t seed = 1;
@@ -47,8 +37,7 @@ struct CaseMakingOptions {
 /// Makes a row of each record; what it is given outlives it. One row does not depend on the others.
 class CaseMaking {
  public:
-  CaseMaking(const CaseMakingOptions& options, const CaseSources& sources,
-             const PlanesOfCar& planes);
+  CaseMaking(const CaseMakingOptions& options, const CaseSources& sources, CaseTools tools);
 
   [[nodiscard]] std::size_t size() const {
     return sources_.prospects.size() + sources_.events.size();
@@ -64,8 +53,21 @@ class CaseMaking {
 
   const CaseMakingOptions& options_;
   const CaseSources& sources_;
-  const PlanesOfCar& planes_;
+  CaseTools tools_;
   std::vector<memory::MadeWith> made_with_;
 };
 
-}  // namespace saca::app
+/// How the rows are worked out, and kept in between.
+struct CaseWork {
+  std::string journal;  ///< its file
+  std::string title;    ///< of the journal: program and command
+  long_work::ProgressDisplay display = long_work::ProgressDisplay::shown;
+  int threads = 1;
+};
+
+/// All rows, from where the journal ends on.
+/// @return  nullopt: interrupted
+[[nodiscard]] Result<std::optional<std::vector<CaseRow>>> case_rows(const CaseMaking& making,
+                                                                    const CaseWork& work);
+
+}  // namespace saca::cases

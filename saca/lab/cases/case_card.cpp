@@ -1,9 +1,8 @@
-#include "apps/saca/cases_pictures.h"
+#include "saca/lab/cases/case_card.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -12,8 +11,9 @@
 #include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/preview/expected_harm.h"
+#include "saca/thinking/rollout/describe.h"
 
-namespace saca::app {
+namespace saca::cases {
 namespace {
 
 using eval::CrashCase;
@@ -26,7 +26,7 @@ struct ShownMoment {
 };
 
 /// Of an encounter that was drawn the truth, of a recording what was perceived, all going on.
-Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
+Result<ShownMoment> shown_moment(const CrashCase& one, const CaseTools& tools) {
   if (!one.kind) {
     ShownMoment shown;
     const world::Scene& scene = one.judged.one.scene;
@@ -36,21 +36,22 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
         .grip = one.grip};
     return shown;
   }
-  auto again = eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car));
+  const manoeuvre::Car& car = *tools.forecast.car;
+  auto again = eval::drawn_again(one, tools.car_name, manoeuvre::footprint(car));
   if (!again.has_value()) {
     return again.error();
   }
   ShownMoment shown{
       .scenario = std::make_unique<scenario::Scenario>(std::move(again).value().scenario),
       .point = {}};
-  const auto time = eval::trigger_time(*shown.scenario, inputs.car);
+  const auto time = eval::trigger_time(*shown.scenario, car);
   if (!time) {
     return Error{Error::Code::out_of_range,
                  one.record.name +
                      ": want an encounter in which the trigger fires; is the car "
                      "another one than it was drawn for?"};
   }
-  shown.point = eval::decision_point_at(*shown.scenario, inputs.car, *time);
+  shown.point = eval::decision_point_at(*shown.scenario, car, *time);
   return shown;
 }
 
@@ -65,6 +66,31 @@ const encounter::Hindsight& tried_plan(const std::vector<encounter::Hindsight>& 
              : *std::find_if(tried.begin(), tried.end(), [&](const encounter::Hindsight& one) {
                  return one.facts.plan.policy == plan.policy;
                });
+}
+
+/// One plan as written, ready to be drawn.
+report::SceneView view_of(const world::Scene& scene, const encounter::Hindsight& tried) {
+  const preview::PolicyFacts& facts = tried.facts;
+  report::SceneView view;
+  view.policy = facts.plan.policy;
+  view.title = name(facts.plan.policy);
+  view.scene = scene;
+  if (!facts.drivable()) {
+    view.lines = {facts.refusal()};
+    for (const world::Actor& actor : scene.actors) {
+      view.others.push_back({.start = scene.time, .X_WA = {actor.X_WA}});
+    }
+    return view;
+  }
+  view.lines = {rollout::describe(facts.outcome(), scene)};
+  view.ego = tried.sequence.ego.track;
+  view.others = tried.sequence.others;
+  if (facts.outcome().contact) {
+    view.contacts.push_back(*facts.outcome().contact);
+    view.contacts.insert(view.contacts.end(), facts.outcome().later.begin(),
+                         facts.outcome().later.end());
+  }
+  return view;
 }
 
 std::string harm_text(const std::optional<double>& harm) {
@@ -173,14 +199,14 @@ std::string title_of(const CrashCase& one) {
 
 }  // namespace
 
-Result<report::GalleryCard> case_card(const CrashCase& one, const Inputs& inputs) {
-  const auto shown = shown_moment(one, inputs);
+Result<report::GalleryCard> case_card(const CrashCase& one, const CaseTools& tools) {
+  const auto shown = shown_moment(one, tools);
   if (!shown.has_value()) {
     return shown.error();
   }
   const eval::DecisionPoint& point = shown.value().point;
-  const auto tried =
-      std::move(encounter::all_plans_tried({&point, 1}, inputs.car, inputs.harm).front());
+  const auto tried = std::move(
+      encounter::all_plans_tried({&point, 1}, *tools.forecast.car, *tools.forecast.harm).front());
   report::GalleryCard card{.title = title_of(one), .lines = {without_text(one)}};
   card.lines.push_back(fmt::format("{:.1f} m/s, grip {:.2f}; best over the draws: {}.",
                                    norm(point.scene.ego.v_B), one.grip,
@@ -202,26 +228,4 @@ Result<report::GalleryCard> case_card(const CrashCase& one, const Inputs& inputs
   return card;
 }
 
-report::PageTable cases_table(const std::vector<CrashCase>& cases) {
-  std::map<std::string, std::map<PolicyId, int>> best;
-  std::map<std::string, int> counts;
-  for (const CrashCase& one : cases) {
-    ++counts[one.family];
-    ++best[one.family][one.judged.one.best];
-  }
-  report::PageTable table{.heading = "Families, and which policy is the best in them"};
-  table.columns = {"cases"};
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    table.columns.emplace_back(name(policy));
-  }
-  for (const auto& [family, count] : counts) {
-    report::PageTable::Row row{.name = family, .cells = {fmt::format("{}", count)}};
-    for (const PolicyId policy : manoeuvre::all_policies) {
-      row.cells.push_back(fmt::format("{}", best[family][policy]));
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-}  // namespace saca::app
+}  // namespace saca::cases

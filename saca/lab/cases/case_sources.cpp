@@ -1,12 +1,13 @@
-#include "apps/saca/cases_sources.h"
+#include "saca/lab/cases/case_sources.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include "saca/lab/crash_records/record_family.h"
 #include "saca/lab/long_work/interrupt.h"
 
-namespace saca::app {
+namespace saca::cases {
 namespace {
 
 using crash_records::CrashFamily;
@@ -75,15 +76,15 @@ std::optional<Error> take_events(CaseSources& sources, const std::string& folder
 
 }  // namespace
 
-Result<CaseSources> open_case_sources(const Places& places, const std::vector<std::string>& folders,
+Result<CaseSources> open_case_sources(const std::filesystem::path& root,
+                                      const std::vector<std::string>& folders,
                                       const std::string& hundred_car,
                                       const std::optional<int>& count) {
-  auto codes =
-      crash_records::FarsCodes::load(places.root / "data" / "crash_records" / "fars_codes.toml");
+  auto codes = crash_records::FarsCodes::load(root / "data" / "crash_records" / "fars_codes.toml");
   if (!codes.has_value()) {
     return codes.error();
   }
-  const auto base = crash_records::load_base_families(places.root / "scenarios" / "families");
+  const auto base = crash_records::load_base_families(root / "scenarios" / "families");
   if (!base.has_value()) {
     return base.error();
   }
@@ -119,4 +120,4 @@ Result<CaseSources> open_case_sources(const Places& places, const std::vector<st
   return sources;
 }
 
-}  // namespace saca::app
+}  // namespace saca::cases

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "saca/lab/cases/example_source.h"
+#include "saca/lab/eval/crash_case.h"
+#include "saca/lab/eval/reply_example.h"
+#include "saca/thinking/preview/situation.h"
+
+namespace saca::cases {
+
+/// An example, and what its prompt is about.
+struct DrawnExample {
+  eval::ReplyExample example;
+  preview::Situation situation;
+};
+/// Of one case and of its twin, where their triggers fire.
+struct DrawnExamples {
+  std::vector<DrawnExample> examples;
+  std::string problem;  ///< why it could not be played; else empty
+};
+/// @param words  seed of the replies' words
+[[nodiscard]] DrawnExamples drawn_examples(const eval::CrashCase& one, const ExampleSource& source,
+                                           std::uint64_t words);
+
+}  // namespace saca::cases

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "saca/base/world/scene.h"
+#include "saca/lab/eval/reply_example.h"
+#include "saca/thinking/memory/case.h"
+#include "saca/thinking/memory/experience.h"
+
+namespace saca::cases {
+
+/// Cases that prompts tell of, as a run's memory would: asked by several threads.
+class ToldCases {
+ public:
+  explicit ToldCases(std::vector<memory::Case> cases);
+
+  /// The most alike of those that speak for what is recalled; nullopt: nothing is recalled.
+  [[nodiscard]] std::optional<eval::ToldCase> in(const world::Scene& scene) const;
+
+ private:
+  std::vector<memory::Case> cases_;
+  memory::Experience experience_;
+  std::unordered_map<match::CaseId, std::size_t> place_of_;
+};
+
+}  // namespace saca::cases
