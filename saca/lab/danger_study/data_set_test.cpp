@@ -105,6 +105,7 @@ TEST_F(DataSets, OfOutcomesHaveASituationForEachDrive) {
   DataSetTask outcomes = task("a");
   outcomes.network = blind_network();
   outcomes.outcomes = true;
+  outcomes.drives_per_part = 20;
   const auto all = made(outcomes);
   ASSERT_TRUE(all.has_value());
   EXPECT_EQ(all.value().situations, all.value().drives);
