@@ -274,6 +274,19 @@ int run(const RunOptions& options) {
   return success;
 }
 
+/// The options that say where what comes of a run goes.
+void add_files(CLI::App& command, RunOptions& options) {
+  command.add_option("--output", options.output, "Folder for records and reports")
+      ->capture_default_str();
+  command.add_option("--report", options.report, "Where the HTML report goes");
+  command
+      .add_option("--trace", options.trace,
+                  "Where the motions go, frame by frame: FILE.jsonl or FILE.csv")
+      ->check(wrong_trace_name);
+  command.add_option("--tape", options.tape,
+                     "Where everything goes that was decided by, step by step, for `saca replay`");
+}
+
 }  // namespace
 
 void add_run(CLI::App& line, int& exit_code) {
@@ -322,15 +335,7 @@ void add_run(CLI::App& line, int& exit_code) {
       "not hold: half a minute or more");
   command->add_flag("--no-learning", options->no_learning,
                     "Ask the memory, but do not add to it what happens");
-  command->add_option("--output", options->output, "Folder for records and reports")
-      ->capture_default_str();
-  command->add_option("--report", options->report, "Where the HTML report goes");
-  command
-      ->add_option("--trace", options->trace,
-                   "Where the motions go, frame by frame: FILE.jsonl or FILE.csv")
-      ->check(wrong_trace_name);
-  command->add_option("--tape", options->tape,
-                      "Where everything goes that was decided by, step by step, for `saca replay`");
+  add_files(*command, *options);
   command->add_flag("--json", options->as_json, "Print the record, for programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
