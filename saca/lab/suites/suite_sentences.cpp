@@ -29,8 +29,7 @@ std::string counted(const SuiteRun& run, std::size_t method, std::size_t other) 
   }
   return fmt::format(
       "In {} of {} encounters it does materially less harm (by more than {}), in {} materially "
-      "more, "
-      "in the rest about the same.",
+      "more, in the rest about the same.",
       better, all, eval::material, worse);
 }
 

@@ -53,9 +53,8 @@ report::PageTable figures_table(const SuiteResult& result) {
       .lines =
           {"Means with 95 % intervals (bootstrap over encounters). Regret is the harm above that "
            "of the best of all plans begun at T1; as published, above that of the best of the "
-           "eight "
-           "policies, whose braking has one strength. Twins are the same "
-           "encounters without risk. In the files beside this page, shares have intervals too."},
+           "eight policies, whose braking has one strength. Twins are the same encounters without "
+           "risk. In the files beside this page, shares have intervals too."},
       .columns = {"harm", "regret, all plans", "regret, as published", "harm above AEB's",
                   "Collision Loss", "contact, %", "as good as the best, %",
                   "materially worse than AEB, %", "needless, %", "False-Trigger Loss (twins)"},
