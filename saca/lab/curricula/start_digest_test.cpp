@@ -5,6 +5,7 @@
 
 #include "saca/base/core/fnv.h"
 #include "saca/thinking/memory/case_json.h"
+#include "saca/thinking/memory/cases_for_test.h"
 
 namespace saca::curricula::start_digest_test {
 namespace {
@@ -13,7 +14,7 @@ TEST(StartDigest, NamesTheCasesAndHowManyThereAre) {
   const StartDigest none = digest_of({}, {});
   EXPECT_EQ(none.start, fmt::format("0 cases ({:016x})", fnv1a(memory::cases_text({}))));
   EXPECT_EQ(none.all, fnv1a(memory::cases_text({})));
-  const std::vector<memory::Case> two(2);
+  const std::vector<memory::Case> two{memory::example_case(1), memory::example_case(2)};
   EXPECT_EQ(digest_of(two, {}).start,
             fmt::format("2 cases ({:016x})", fnv1a(memory::cases_text(two))));
 }

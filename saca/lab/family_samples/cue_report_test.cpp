@@ -49,7 +49,7 @@ TEST(CueReport, ForecastsHaveTheirSuite) {
   const std::string text = text_of("other_cues", some_forecasts());
   EXPECT_THAT(text, testing::StartsWith("\nsuite other_cues, calibration split "));
   EXPECT_THAT(text, HasSubstr("\nCounts by kind "));
-  EXPECT_THAT(text, HasSubstr("0.5000 (0.4000 to 0.6000)   0.2500 (0.2000 to 0.3000)\n"));
+  EXPECT_THAT(text, HasSubstr("0.5000 (0.4000 to 0.6000)  0.2500 (0.2000 to 0.3000)\n"));
 }
 
 }  // namespace
