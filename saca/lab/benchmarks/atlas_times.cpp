@@ -87,8 +87,9 @@ void add_times(const AtlasReading& reading, const AtlasScenes& scenes,
   for (int call = 0; call < reading.num_calls; ++call) {
     const std::size_t i = static_cast<std::size_t>(call) % scenes.scenes.size();
     const Clock::Time start = reading.clock->now();
-    const forecast::Futures all = forecast::futures(*reading.atlas, scenes.scenes[i],
-                                                    scenes.tracks[i], *reading.harm, target_shares);
+    const forecast::Futures all =
+        forecast::futures(*reading.atlas, scenes.scenes[i], scenes.tracks[i], *reading.harm,
+                          {.shares = target_shares});
     times.push_back(1e6 * to_seconds(reading.clock->now() - start));
     num_outside += all[0].outside ? 1 : 0;
   }

@@ -19,7 +19,7 @@ nlohmann::json vehicle_times(const manoeuvre::Car& car, const Clock& clock, int 
     vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, 0.9);
     for (int k = 0; k < num_steps; ++k) {
       const vehicle::Command command =
-          manoeuvre::control(car, plan, scene.road, 0.9, state, memory, vehicle::usual_step);
+          manoeuvre::control(car, scene.road, 0.9, state, memory, vehicle::usual_step);
       state = vehicle::step(car, state, command, 0.9, vehicle::usual_step);
     }
   }

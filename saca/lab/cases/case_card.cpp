@@ -11,7 +11,6 @@
 #include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/preview/expected_harm.h"
-#include "saca/thinking/rollout/describe.h"
 
 namespace saca::cases {
 namespace {
@@ -66,31 +65,6 @@ const encounter::Hindsight& tried_plan(const std::vector<encounter::Hindsight>& 
              : *std::find_if(tried.begin(), tried.end(), [&](const encounter::Hindsight& one) {
                  return one.facts.plan.policy == plan.policy;
                });
-}
-
-/// One plan as written, ready to be drawn.
-report::SceneView view_of(const world::Scene& scene, const encounter::Hindsight& tried) {
-  const preview::PolicyFacts& facts = tried.facts;
-  report::SceneView view;
-  view.policy = facts.plan.policy;
-  view.title = name(facts.plan.policy);
-  view.scene = scene;
-  if (!facts.drivable()) {
-    view.lines = {facts.refusal()};
-    for (const world::Actor& actor : scene.actors) {
-      view.others.push_back({.start = scene.time, .X_WA = {actor.X_WA}});
-    }
-    return view;
-  }
-  view.lines = {rollout::describe(facts.outcome(), scene)};
-  view.ego = tried.sequence.ego.track;
-  view.others = tried.sequence.others;
-  if (facts.outcome().contact) {
-    view.contacts.push_back(*facts.outcome().contact);
-    view.contacts.insert(view.contacts.end(), facts.outcome().later.begin(),
-                         facts.outcome().later.end());
-  }
-  return view;
 }
 
 std::string harm_text(const std::optional<double>& harm) {

@@ -98,9 +98,10 @@ CaseRow CaseMaking::row_of(const CrashProspect& prospect) const {
   const crash_records::FarsCrash& crash = sources_.release.crashes[prospect.crash];
   const crash_records::FarsVehicle& ego = crash.vehicles[prospect.roles.ego];
   CaseRow row{.family = std::string(name(prospect.roles.family))};
-  eval::CrashFound found = eval::find_crash(
-      prospect.family, prospect.roles.struck, options_.seed, tools_.car_name, *tools_.forecast.car,
-      *tools_.forecast.harm, static_cast<std::uint64_t>(options_.tries));
+  eval::CrashFound found =
+      eval::find_crash(prospect.family, prospect.roles.struck, tools_.car_name,
+                       *tools_.forecast.car, *tools_.forecast.harm,
+                       {.seed = options_.seed, .most = static_cast<std::uint64_t>(options_.tries)});
   row.end = found.end;
   if (found.end != eval::CrashEnd::happens) {
     return row;

@@ -37,8 +37,9 @@ inline eval::CrashCase case_by_hand(const std::string& name = "fars_2016_40001")
   static const families::Family family = [] {
     return families::load_family("scenarios/families", "slower_lead").value();
   }();
-  static const eval::CrashFound found = eval::find_crash(family, std::nullopt, 3, "compact_rwd_ev",
-                                                         shipped().car, shipped().harm, 20);
+  static const eval::CrashFound found =
+      eval::find_crash(family, std::nullopt, "compact_rwd_ev", shipped().car, shipped().harm,
+                       {.seed = 3, .most = 20});
   eval::CrashCase one{
       .record = {.study = "FARS", .name = name, .state = "Arizona", .year = 2016, .number = 40001},
       .family = "rear_end",

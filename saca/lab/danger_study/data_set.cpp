@@ -60,8 +60,8 @@ Part made_part(const DataSetTask& task, const danger::DangerModel& model, std::s
     part.mixture = learned_danger::mixture_of_outcomes();
   }
   part.transitions = learned_danger::made_transitions(
-      task.car.car, manoeuvre::footprint(task.car.car), model, part.mixture, task.drives_per_part,
-      part.seed, task.network ? &*task.network : nullptr);
+      task.car.car, manoeuvre::footprint(task.car.car), model, part.mixture,
+      {.count = task.drives_per_part, .seed = part.seed}, task.network ? &*task.network : nullptr);
   return part;
 }
 

@@ -19,8 +19,8 @@ CrashCase example() {
     return slower;
   }();
   const manoeuvre::Car car = prepare::default_car();
-  const CrashFound found =
-      find_crash(family, std::nullopt, 3, "compact_rwd_ev", car, shipped_harm(), 5);
+  const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", car, shipped_harm(),
+                                      {.seed = 3, .most = 5});
   CrashCase one{
       .record =
           {.study = "FARS", .name = family.name, .state = "Arizona", .year = 2016, .number = 40001},

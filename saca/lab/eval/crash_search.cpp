@@ -39,13 +39,13 @@ std::optional<CrashEnd> crash_end_from(std::string_view name) {
 }
 
 CrashFound find_crash(const families::Family& family, std::optional<collision::Face> struck,
-                      std::uint64_t seed, const std::string& car_name, const manoeuvre::Car& car,
-                      const collision::HarmModel& harm, std::uint64_t tries) {
-  expects(tries >= 1, "tries >= 1");
+                      const std::string& car_name, const manoeuvre::Car& car,
+                      const collision::HarmModel& harm, const SampleTries& tries) {
+  expects(tries.most >= 1, "tries >= 1");
   CrashFound found;
-  for (std::uint64_t number = 0; number < tries && found.end != CrashEnd::happens; ++number) {
+  for (std::uint64_t number = 0; number < tries.most && found.end != CrashEnd::happens; ++number) {
     found.sample = number;
-    auto sample = families::sample(family, seed, number, car_name, manoeuvre::footprint(car));
+    auto sample = families::sample(family, tries.seed, number, car_name, manoeuvre::footprint(car));
     if (!sample.has_value()) {
       continue;
     }

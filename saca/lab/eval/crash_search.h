@@ -28,13 +28,18 @@ struct CrashFound {
   WrittenTrigger as_written;    ///< of it; without meaning where nothing triggers
 };
 
+/// Which samples of a family are tried.
+struct SampleTries {
+  std::uint64_t seed = 1;
+  std::uint64_t most = 1;  ///< >= 1
+};
+
 /// Tries samples 0, 1, 2, ... of a record's family until without avoidance its first actor is met,
 /// on the given side of the ego.
 /// @param struck   the ego's face; nullopt: any
-/// @param tries    >= 1
 [[nodiscard]] CrashFound find_crash(const families::Family& family,
-                                    std::optional<collision::Face> struck, std::uint64_t seed,
+                                    std::optional<collision::Face> struck,
                                     const std::string& car_name, const manoeuvre::Car& car,
-                                    const collision::HarmModel& harm, std::uint64_t tries);
+                                    const collision::HarmModel& harm, const SampleTries& tries);
 
 }  // namespace saca::eval

@@ -15,7 +15,7 @@ class CrashSearch : public testing::Test {
   }
   void always(const std::string& key, double value) { family_.ranges[key] = {value, value, "t"}; }
   [[nodiscard]] CrashFound found(std::optional<collision::Face> struck, std::uint64_t tries) const {
-    return find_crash(family_, struck, 1, "compact_rwd_ev", car_, harm_, tries);
+    return find_crash(family_, struck, "compact_rwd_ev", car_, harm_, {.seed = 1, .most = tries});
   }
 
   families::Family family_;

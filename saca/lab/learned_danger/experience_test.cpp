@@ -22,7 +22,7 @@ class ExperienceTest : public testing::Test {
 
   const manoeuvre::Car car_ = prepare::default_car();
   const danger::DangerModel model_{danger::avoidance_of(car_, 1.0), body, {}};
-  const Transitions made_ = made_transitions(car_, body, model_, {}, 12, 7);
+  const Transitions made_ = made_transitions(car_, body, model_, {}, {12, 7});
   Experience all_;
 };
 

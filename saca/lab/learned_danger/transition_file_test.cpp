@@ -23,7 +23,7 @@ class TransitionFile : public testing::Test {
     part_ = {.car = "compact_rwd_ev", .seed = 18446744073709551615U};
     part_.mixture.near_share = 0.0;
     part_.mixture.behaviours = {0.5, 0.25, 0.25, 0.0};
-    part_.transitions = made_transitions(car, body, model, part_.mixture, 3, 9);
+    part_.transitions = made_transitions(car, body, model, part_.mixture, {3, 9});
   }
   Part part_;
   const std::filesystem::path path_ =

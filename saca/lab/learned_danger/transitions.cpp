@@ -180,9 +180,9 @@ void Transitions::add(const Transition& one) {
 }
 
 Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
-                             const danger::DangerModel& model, const Mixture& mixture, int drives,
-                             std::uint64_t seed, const Network* network) {
-  expects(drives >= 1 && mixture.looks >= 1 && mixture.situations >= 1,
+                             const danger::DangerModel& model, const Mixture& mixture,
+                             const DriveDraws& draws, const Network* network) {
+  expects(draws.count >= 1 && mixture.looks >= 1 && mixture.situations >= 1,
           "at least one drive, look and situation");
   expects(mixture.near_share >= 0.0 && mixture.near_share <= 1.0, "a share in [0, 1]");
   expects(std::all_of(mixture.behaviours.begin(), mixture.behaviours.end(),
@@ -190,8 +190,8 @@ Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& 
               std::accumulate(mixture.behaviours.begin(), mixture.behaviours.end(), 0.0) > 0.0,
           "shares of behaviours, not all 0");
   expects(!mixture.outcomes || network != nullptr, "a network whose outcomes are wanted");
-  Maker maker(car, body, model, mixture, seed, network);
-  for (int i = 0; i < drives; ++i) {
+  Maker maker(car, body, model, mixture, draws.seed, network);
+  for (int i = 0; i < draws.count; ++i) {
     maker.add_drive();
   }
   return maker.take();

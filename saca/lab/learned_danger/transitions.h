@@ -66,6 +66,12 @@ struct Transitions {
   void add(const Transition& one);
 };
 
+/// How many drives are made, and from what.
+struct DriveDraws {
+  int count = 0;  ///< >= 1
+  std::uint64_t seed = 1;
+};
+
 /// Drives and what they meet, from a seed: a part of a data set. The same seed, the same bytes.
 ///
 /// A drive: grip between 0.2 and 1, a drawn start, one to three obstacles, a behaviour. Where it is
@@ -76,12 +82,11 @@ struct Transitions {
 /// @param body   of the ego, about its centre of mass
 /// @param model  of the car, of any tables
 /// @param network  learnt from an earlier data set; nullptr: none
-/// @param drives  >= 1
 /// @throws ContractViolation  if a number of the mixture is out of range, or outcomes are wanted of
 ///                            no network
 [[nodiscard]] Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
                                            const danger::DangerModel& model, const Mixture& mixture,
-                                           int drives, std::uint64_t seed,
+                                           const DriveDraws& draws,
                                            const Network* network = nullptr);
 
 }  // namespace saca::learned_danger

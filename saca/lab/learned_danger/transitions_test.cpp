@@ -20,7 +20,7 @@ class TransitionsTest : public testing::Test {
  protected:
   [[nodiscard]] Transitions made(int drives, std::uint64_t seed,
                                  const Mixture& mixture = {}) const {
-    return made_transitions(car_, body, model_, mixture, drives, seed);
+    return made_transitions(car_, body, model_, mixture, {drives, seed});
   }
   static double at(const std::vector<float>& rows, std::size_t row, std::size_t feature) {
     return rows[row * num_features + feature];
@@ -122,7 +122,7 @@ Network braking_network() {
 TEST_F(TransitionsTest, OutcomesAreThoseOfTheNetwork) {
   const Network network = braking_network();
   const Transitions all =
-      made_transitions(car_, body, model_, mixture_of_outcomes(), 40, 9, &network);
+      made_transitions(car_, body, model_, mixture_of_outcomes(), {40, 9}, &network);
   EXPECT_EQ(all.drives, 40U);
   EXPECT_EQ(all.situations, 40U);
   ASSERT_GT(all.size(), 200U);
@@ -137,7 +137,7 @@ TEST_F(TransitionsTest, OutcomesAreThoseOfTheNetwork) {
   EXPECT_LE(cut_off, 8U) << "who brakes stands within 12 s; somebody slow may yet be on his way";
   EXPECT_LE(ends, 40U);
   EXPECT_GT(ends, 25U) << "some are settled at once";
-  EXPECT_THROW(std::ignore = made_transitions(car_, body, model_, mixture_of_outcomes(), 1, 1),
+  EXPECT_THROW(std::ignore = made_transitions(car_, body, model_, mixture_of_outcomes(), {1, 1}),
                ContractViolation);
 }
 

@@ -116,22 +116,20 @@ class Canvas {
     cairo_line_to(cairo(), to.x, to.y);
     cairo_stroke(cairo());
   }
-  void text(Vec2 at, const std::string& words, const TextStyle& style) const {
-    colour(style.rgb);
-    cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, style.weight);
-    cairo_set_font_size(cairo(), style.size);
+  void text(Vec2 at, const std::string& words, const TextStyle& how) const {
+    colour(how.rgb);
+    cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, how.weight);
+    cairo_set_font_size(cairo(), how.size);
     cairo_text_extents_t extents;
     cairo_text_extents(cairo(), words.c_str(), &extents);
-    const double share = style.align == Align::left     ? 0.0
-                         : style.align == Align::middle ? 0.5
-                                                        : 1.0;
+    const double share = how.align == Align::left ? 0.0 : how.align == Align::middle ? 0.5 : 1.0;
     cairo_save(cairo());
     cairo_translate(cairo(), at.x, at.y);
-    cairo_rotate(cairo(), style.turned);
+    cairo_rotate(cairo(), how.turned);
     cairo_move_to(cairo(), -share * extents.x_advance, 0.0);
-    if (style.outline > 0.0) {
+    if (how.outline > 0.0) {
       cairo_text_path(cairo(), words.c_str());
-      cairo_set_line_width(cairo(), style.outline);
+      cairo_set_line_width(cairo(), how.outline);
       cairo_stroke(cairo());
     } else {
       cairo_show_text(cairo(), words.c_str());

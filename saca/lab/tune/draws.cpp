@@ -33,20 +33,19 @@ Ending ride_to_end(manoeuvre::Ride ride, double horizon, bool with_path) {
 }
 
 std::vector<Ending> draw_endings(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
-                                 const world::Scene& scene, double grip, double horizon, int count,
-                                 std::uint64_t seed, int with_paths, int threads) {
+                                 const world::Scene& scene, const EndingDraws& draws) {
   expects(!manoeuvre::refusal(car, plan, scene).has_value(),
           "the plan can be driven: refusal(...)");
-  expects(count >= 0 && threads >= 1, "count >= 0 and threads >= 1");
-  std::mt19937_64 rng(seed);
-  std::vector<manoeuvre::ParameterPerturbation> perturbation(static_cast<std::size_t>(count));
+  expects(draws.count >= 0 && draws.threads >= 1, "count >= 0 and threads >= 1");
+  std::mt19937_64 rng(draws.seed);
+  std::vector<manoeuvre::ParameterPerturbation> perturbation(static_cast<std::size_t>(draws.count));
   for (manoeuvre::ParameterPerturbation& one : perturbation) {
     one = manoeuvre::draw(rng);
   }
   std::vector<Ending> endings(perturbation.size());
-  in_parallel(endings.size(), threads, [&](std::size_t i) {
-    endings[i] = ride_to_end(manoeuvre::Ride(car, plan, scene, grip, perturbation[i]), horizon,
-                             i < static_cast<std::size_t>(with_paths));
+  in_parallel(endings.size(), draws.threads, [&](std::size_t i) {
+    endings[i] = ride_to_end(manoeuvre::Ride(car, plan, scene, draws.grip, perturbation[i]),
+                             draws.horizon, i < static_cast<std::size_t>(draws.with_paths));
   });
   return endings;
 }

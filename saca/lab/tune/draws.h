@@ -19,17 +19,21 @@ struct Ending {
 /// Rides to the end of the manoeuvre, or for `horizon` [s].
 [[nodiscard]] Ending ride_to_end(manoeuvre::Ride ride, double horizon, bool with_path = false);
 
-/// The same manoeuvre `count` times, with what its controller does not know drawn anew.
-///
-/// @param grip        true friction coefficient before it is drawn [-]
-/// @param with_paths  of how many, from the first on, the path is kept
-/// @param threads     >= 1; they do not change the result
+/// How often a manoeuvre is driven, and on what.
+struct EndingDraws {
+  double grip = 0.0;     ///< true friction coefficient before it is drawn [-]
+  double horizon = 0.0;  ///< longest time of one [s]
+  int count = 0;
+  std::uint64_t seed = 1;
+  int with_paths = 0;  ///< of how many, from the first on, the path is kept
+  int threads = 1;     ///< they do not change the result
+};
+
+/// The same manoeuvre so many times, with what its controller does not know drawn anew.
 /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
 [[nodiscard]] std::vector<Ending> draw_endings(const manoeuvre::Car& car,
                                                const manoeuvre::Plan& plan,
-                                               const world::Scene& scene, double grip,
-                                               double horizon, int count, std::uint64_t seed,
-                                               int with_paths, int threads);
+                                               const world::Scene& scene, const EndingDraws& draws);
 
 /// How many of a T-drift's endings are at rest within 10 deg of across the lane.
 [[nodiscard]] int num_across(const std::vector<Ending>& endings, const manoeuvre::Plan& plan,

@@ -19,8 +19,8 @@ constexpr manoeuvre::Plan drift{manoeuvre::PolicyId::t_drift_right, std::nullopt
 
 TEST(Draws, SameSeedSameEndingsOnAnyThreads) {
   const manoeuvre::Car car = prepare::default_car();
-  const auto a = draw_endings(car, brake, ego_alone(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 1);
-  const auto b = draw_endings(car, brake, ego_alone(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 3);
+  const auto a = draw_endings(car, brake, ego_alone(12.0, 0.8), {0.8, 5.0, 12, 3, 2, 1});
+  const auto b = draw_endings(car, brake, ego_alone(12.0, 0.8), {0.8, 5.0, 12, 3, 2, 3});
   ASSERT_EQ(a.size(), 12U);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].X_WB.p.x, b[i].X_WB.p.x);
@@ -52,9 +52,9 @@ TEST(Draws, AcrossIsWithinTenDegreesOfTheSideAndAtRest) {
 }
 
 TEST(Draws, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW(
-      (void)draw_endings(prepare::default_car(), drift, ego_alone(2.0, 0.9), 0.9, 5.0, 1, 1, 0, 1),
-      ContractViolation);
+  EXPECT_THROW((void)draw_endings(prepare::default_car(), drift, ego_alone(2.0, 0.9),
+                                  {0.9, 5.0, 1, 1, 0, 1}),
+               ContractViolation);
 }
 
 }  // namespace

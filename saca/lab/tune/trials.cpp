@@ -182,8 +182,12 @@ int num_across(const Car& car, double speed, double grip, int count, unsigned lo
                int threads) {
   const manoeuvre::Plan plan{PolicyId::t_drift_left, std::nullopt};
   const world::Scene scene = scene_at({speed, grip});
-  const auto endings = tune::draw_endings(without_domain(car), plan, scene, grip,
-                                          longest_drift(scene), count, seed, 0, threads);
+  const auto endings = tune::draw_endings(without_domain(car), plan, scene,
+                                          {.grip = grip,
+                                           .horizon = longest_drift(scene),
+                                           .count = count,
+                                           .seed = seed,
+                                           .threads = threads});
   return tune::num_across(endings, plan, scene.road);
 }
 

@@ -30,8 +30,12 @@ std::optional<DriftEndings> drift_endings(const manoeuvre::Car& car, double spee
   if (manoeuvre::refusal(car, plan, scene)) {
     return std::nullopt;
   }
-  const auto endings = tune::draw_endings(car, plan, scene, grip, horizon, draws.count, draws.seed,
-                                          0, draws.threads);
+  const auto endings = tune::draw_endings(car, plan, scene,
+                                          {.grip = grip,
+                                           .horizon = horizon,
+                                           .count = draws.count,
+                                           .seed = draws.seed,
+                                           .threads = draws.threads});
   std::vector<double> forward;
   std::vector<double> sideways;
   for (const tune::Ending& ending : endings) {

@@ -88,9 +88,13 @@ std::optional<Error> drive_into(report::DriveRecord& record, const DriveQuestion
   if (question.draws > 0) {
     constexpr int shown_paths = 50;
     record.draws = {.seed = question.seed,
-                    .endings = tune::draw_endings(
-                        record.car, record.plan, record.scene, question.grip, horizon_of(question),
-                        question.draws, question.seed, shown_paths, question.threads)};
+                    .endings = tune::draw_endings(record.car, record.plan, record.scene,
+                                                  {.grip = question.grip,
+                                                   .horizon = horizon_of(question),
+                                                   .count = question.draws,
+                                                   .seed = question.seed,
+                                                   .with_paths = shown_paths,
+                                                   .threads = question.threads})};
   }
   return std::nullopt;
 }
