@@ -30,6 +30,69 @@ void choose_waiting(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 [[gnu::section(".preinit_array"),
   gnu::used]] void (*const chooses_waiting)(int, char**, char**) = choose_waiting;
 
+void add_commands(CLI::App& line, int& exit_code) {
+  using namespace saca::app;
+  add_run(line, exit_code);
+  add_replay(line, exit_code);
+  add_explain(line, exit_code);
+  add_report(line, exit_code);
+  add_verify(line, exit_code);
+  add_scenarios(line, exit_code);
+  add_import(line, exit_code);
+  add_memory(line, exit_code);
+  add_cases(line, exit_code);
+  add_reason(line, exit_code);
+  add_model(line, exit_code);
+  add_physics(line, exit_code);
+  add_drive(line, exit_code);
+  add_harm(line, exit_code);
+  add_oracle(line, exit_code);
+  add_whatif(line, exit_code);
+  add_family(line, exit_code);
+  add_cues(line, exit_code);
+  add_balance(line, exit_code);
+  add_forecast(line, exit_code);
+  add_ladder(line, exit_code);
+  add_learn(line, exit_code);
+  add_tables(line, exit_code);
+  add_suite(line, exit_code);
+  add_search_showcase(line, exit_code);
+  add_tune(line, exit_code);
+  add_atlas(line, exit_code);
+  add_danger(line, exit_code);
+  add_reach(line, exit_code);
+  add_intent(line, exit_code);
+  add_traffic(line, exit_code);
+  add_vehicle(line, exit_code);
+  add_bench(line, exit_code);
+  add_completion(line, exit_code);
+  add_man(line, exit_code);
+}
+
+/// Does what was typed.
+/// @param typed      the words after the program's name
+/// @param exit_code  that its command leaves
+int run_line(CLI::App& line, const std::vector<std::string>& typed, const int& exit_code) {
+  using namespace saca::app;
+  std::vector<std::string> words = saca::shell::as_spelt(typed);
+  std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
+  try {
+    line.parse(std::move(words));
+  } catch (const CLI::ParseError& problem) {
+    std::ostringstream told;
+    if (line.exit(problem, told, told) != 0) {
+      return refuse_line(line, problem);
+    }
+    saca::app::print("{}", told.str());  // the help that was asked for
+    return success;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    complain("the output cannot be written");
+    return exit_code == success ? cannot_write : exit_code;
+  }
+  return exit_code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -46,58 +109,8 @@ int main(int argc, char** argv) {
     add_settings(line);
     line.require_subcommand(1);
     int exit_code = success;
-    add_run(line, exit_code);
-    add_replay(line, exit_code);
-    add_explain(line, exit_code);
-    add_report(line, exit_code);
-    add_verify(line, exit_code);
-    add_scenarios(line, exit_code);
-    add_import(line, exit_code);
-    add_memory(line, exit_code);
-    add_cases(line, exit_code);
-    add_reason(line, exit_code);
-    add_model(line, exit_code);
-    add_physics(line, exit_code);
-    add_drive(line, exit_code);
-    add_harm(line, exit_code);
-    add_oracle(line, exit_code);
-    add_whatif(line, exit_code);
-    add_family(line, exit_code);
-    add_cues(line, exit_code);
-    add_balance(line, exit_code);
-    add_forecast(line, exit_code);
-    add_ladder(line, exit_code);
-    add_learn(line, exit_code);
-    add_tables(line, exit_code);
-    add_suite(line, exit_code);
-    add_search_showcase(line, exit_code);
-    add_tune(line, exit_code);
-    add_atlas(line, exit_code);
-    add_danger(line, exit_code);
-    add_reach(line, exit_code);
-    add_intent(line, exit_code);
-    add_traffic(line, exit_code);
-    add_vehicle(line, exit_code);
-    add_bench(line, exit_code);
-    add_completion(line, exit_code);
-    add_man(line, exit_code);
-    std::vector<std::string> words = saca::shell::as_spelt({argv + std::min(argc, 1), argv + argc});
-    std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
-    try {
-      line.parse(std::move(words));
-    } catch (const CLI::ParseError& problem) {
-      std::ostringstream told;
-      if (line.exit(problem, told, told) != 0) {
-        return refuse_line(line, problem);
-      }
-      saca::app::print("{}", told.str());  // the help that was asked for
-      return success;
-    }
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      complain("the output cannot be written");
-      return exit_code == success ? cannot_write : exit_code;
-    }
-    return exit_code;
+    add_commands(line, exit_code);
+    return run_line(line, {argv + std::min(argc, 1), argv + argc}, exit_code);
   } catch (const std::system_error& problem) {
     complain(std::string("cannot go on: ") + problem.what());
     return cannot_write;

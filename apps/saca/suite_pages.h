@@ -3,16 +3,16 @@
 #include <optional>
 
 #include "apps/saca/suite_running.h"
-#include "saca/lab/suites/estimates.h"
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/suites/suite_result.h"
 
 namespace saca::app {
 
-using suites::add_estimate;
+using eval::add_estimate;
+using eval::with_interval;
 using suites::footnotes_of;
 using suites::result_of;
 using suites::SuiteResult;
-using suites::with_interval;
 
 /// The rows into `options.output`, the page beside them.
 /// @return  nullopt, else what could not be written

@@ -205,6 +205,49 @@ Result<formats::Tensors> earlier_weights(const Options& options, const Data& dat
   return tensors;
 }
 
+/// What the weights' file says of how they came about.
+/// @param earlier  what it said of the weights that are learnt from
+std::map<std::string, std::string> words_of(const Options& options, const Data& data,
+                                            const std::map<std::string, std::string>& earlier) {
+  const bool by_outcomes = !options.values_of.empty();
+  const bool improves = !options.q_of.empty();
+  const auto word = [&](const char* name) {
+    const auto found = earlier.find(name);
+    return found != earlier.end() ? found->second : std::string("0");
+  };
+  return {{"car", data.car},
+          {"vehicle", data.vehicle},
+          {"transitions", by_outcomes ? word("transitions") : std::to_string(data.transitions)},
+          {"drives", by_outcomes ? word("drives") : std::to_string(data.drives)},
+          {"outcomes", by_outcomes ? std::to_string(data.drives) : word("outcomes")},
+          {"hold_looks",
+           by_outcomes ? word("hold_looks") : std::to_string(improves ? options.hold_looks : 1)},
+          {"seed", std::to_string(options.plan.seed)},
+          {"steps", std::to_string(options.plan.steps)},
+          {"pair_steps", std::to_string(options.pair_steps)},
+          {"batch", std::to_string(options.plan.batch)},
+          {"expectile", options.earlier().empty() ? fmt::format("{}", options.plan.expectile)
+                                                  : word("expectile")},
+          {"discount", fmt::format("{}", options.plan.discount)}};
+}
+
+/// Checks the weights, and writes them and the curve.
+std::optional<Error> write_weights(const Options& options, const Data& data,
+                                   formats::Tensors& tensors, const std::string& curve) {
+  auto words = words_of(options, data, tensors.words);
+  tensors.words.clear();
+  const auto network = learned_danger::Network::from(tensors, options.output);
+  if (!network.has_value()) {
+    return network.error();
+  }
+  words["digest"] = fmt::format("{:016x}", network.value().digest());
+  tensors.words = std::move(words);
+  if (auto problem = write_file(options.output, formats::tensor_bytes(tensors))) {
+    return problem;
+  }
+  return write_file(options.output + ".curve.csv", curve);
+}
+
 int train_danger(const Options& options) {
   auto read = read_data(options.folder, options.root);
   if (!read.has_value()) {
@@ -218,7 +261,6 @@ int train_danger(const Options& options) {
   if (train_program::is_to_stop()) {
     return train_program::stopped(program);
   }
-  const bool by_outcomes = !options.values_of.empty();
   const bool improves = !options.q_of.empty();
   const bool with_pairs = options.pair_steps > 0 && !improves;
   if (improves) {
@@ -234,10 +276,6 @@ int train_danger(const Options& options) {
     return train_program::stopped(program);
   }
   network_training::DangerNets nets = singles.value();
-  const auto word = [&](const char* name) {
-    const auto found = tensors.words.find(name);
-    return found != tensors.words.end() ? found->second : std::string("0");
-  };
   trainings.add_to(tensors, nets, "");
   if (with_pairs) {
     const auto pairs = trainings.pairs(nets);
@@ -249,33 +287,8 @@ int train_danger(const Options& options) {
     }
     trainings.add_to(tensors, pairs.value(), "pair_");
   }
-  std::map<std::string, std::string> words{
-      {"car", data.car},
-      {"vehicle", data.vehicle},
-      {"transitions", by_outcomes ? word("transitions") : std::to_string(data.transitions)},
-      {"drives", by_outcomes ? word("drives") : std::to_string(data.drives)},
-      {"outcomes", by_outcomes ? std::to_string(data.drives) : word("outcomes")},
-      {"hold_looks",
-       by_outcomes ? word("hold_looks") : std::to_string(improves ? options.hold_looks : 1)},
-      {"seed", std::to_string(options.plan.seed)},
-      {"steps", std::to_string(options.plan.steps)},
-      {"pair_steps", std::to_string(options.pair_steps)},
-      {"batch", std::to_string(options.plan.batch)},
-      {"expectile",
-       options.earlier().empty() ? fmt::format("{}", options.plan.expectile) : word("expectile")},
-      {"discount", fmt::format("{}", options.plan.discount)}};
-  tensors.words.clear();
-  const auto network = learned_danger::Network::from(tensors, options.output);
-  if (!network.has_value()) {
-    return train_program::failed(program, network.error());
-  }
-  words["digest"] = fmt::format("{:016x}", network.value().digest());
-  tensors.words = std::move(words);
-  for (const auto& [path, text] : {std::pair{options.output, formats::tensor_bytes(tensors)},
-                                   std::pair{options.output + ".curve.csv", trainings.curve()}}) {
-    if (const auto problem = write_file(path, text)) {
-      return train_program::failed(program, *problem);
-    }
+  if (const auto problem = write_weights(options, data, tensors, trainings.curve())) {
+    return train_program::failed(program, *problem);
   }
   if (with_pairs || improves) {  // else kept: pairs may yet be learnt on top
     trainings.remove_states();

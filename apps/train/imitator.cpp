@@ -64,27 +64,40 @@ Right right_in(const eval::Imitator& imitator, const std::vector<memory::Case>& 
   return right;
 }
 
-int train_imitator(const Options& options) {
-  const auto text = formats::read_compressed(options.cases, many_bytes);
-  if (!text.has_value()) {
-    return train_program::failed(program, text.error());
-  }
-  auto read = memory::cases_from_text(text.value(), options.cases);
-  if (!read.has_value()) {
-    return train_program::failed(program, read.error());
-  }
+/// Cases to show, and others that are held out.
+struct Lessons {
   std::vector<memory::Case> shown;
   std::vector<memory::Case> watched;
+};
+
+Result<Lessons> read_lessons(const std::string& file) {
+  const auto text = formats::read_compressed(file, many_bytes);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  auto read = memory::cases_from_text(text.value(), file);
+  if (!read.has_value()) {
+    return read.error();
+  }
+  Lessons lessons;
   for (memory::Case& one : std::move(read).value()) {
-    (is_held_out(one) ? watched : shown).push_back(std::move(one));
+    (is_held_out(one) ? lessons.watched : lessons.shown).push_back(std::move(one));
   }
-  if (shown.empty() || watched.empty()) {
-    return train_program::failed(
-        program, {Error::Code::out_of_range,
-                  fmt::format("{}: want cases of several encounters, to show and to watch by, got "
-                              "{} and {}",
-                              options.cases, shown.size(), watched.size())});
+  if (lessons.shown.empty() || lessons.watched.empty()) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: want cases of several encounters, to show and to watch by, got "
+                             "{} and {}",
+                             file, lessons.shown.size(), lessons.watched.size())};
   }
+  return lessons;
+}
+
+int train_imitator(const Options& options) {
+  const auto lessons = read_lessons(options.cases);
+  if (!lessons.has_value()) {
+    return train_program::failed(program, lessons.error());
+  }
+  const auto& [shown, watched] = lessons.value();
   fmt::print("{} cases to train with, {} held out\n", shown.size(), watched.size());
   std::fflush(stdout);
   std::string curve = "epoch,training_loss,held_out_loss\n";

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "apps/train/program.h"
@@ -115,67 +116,95 @@ json rung_figures(const learned_danger::ExactPointMass& exact, const danger::Val
   return all;
 }
 
+/// What one way of learning came to.
+struct Rung {
+  json figures;
+  formats::Tensors weights;
+  std::string curve;
+};
+
+/// By fitted iteration.
+Result<Rung> fitted_rung(const Options& options, const learned_danger::ExactPointMass& exact) {
+  const danger::ValueAt value = exact.value();
+  const learned_danger::Outcomes outcomes =
+      learned_danger::point_mass_outcomes(exact.problem, value, options.states, options.plan.seed);
+  Curve curve("fitted iteration");
+  const auto fitted = network_training::fitted_values(
+      outcomes, options.plan, options.threads, fs::path(options.output) / "fitted.state",
+      [&](const network_training::DangerProgress& now) { return curve.add(now); });
+  if (!fitted.has_value()) {
+    return fitted.error();
+  }
+  Rung rung;
+  if (train_program::is_to_stop()) {
+    return rung;
+  }
+  fitted.value()->add_to(rung.weights, "v.");
+  rung.figures = rung_figures(exact, value, fitted.value());
+  rung.figures["seconds"] = curve.seconds();
+  rung.curve = curve.text();
+  return rung;
+}
+
+/// From transitions alone.
+Result<Rung> rung_from_data(const Options& options, const learned_danger::ExactPointMass& exact) {
+  const danger::ValueAt value = exact.value();
+  learned_danger::Experience experience;
+  const learned_danger::Transitions made = learned_danger::point_mass_transitions(
+      exact.problem, value, options.drives, options.plan.seed + 1);
+  learned_danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
+  fmt::print("{} transitions\n", experience.size());
+  Curve curve("from data");
+  const auto nets = network_training::trained_danger(
+      experience, nullptr, options.plan, options.threads,
+      fs::path(options.output) / "offline.state",
+      [&](const network_training::DangerProgress& now) { return curve.add(now); });
+  if (!nets.has_value()) {
+    return nets.error();
+  }
+  Rung rung;
+  if (train_program::is_to_stop()) {
+    return rung;
+  }
+  rung.figures = rung_figures(exact, value, nets.value()->v);
+  rung.figures["seconds"] = curve.seconds();
+  rung.figures["transitions"] = experience.size();
+  nets.value()->add_to(rung.weights, "");
+  rung.curve = curve.text();
+  return rung;
+}
+
 int train_point_mass(const Options& options) {
   const auto read = learned_danger::read_exact_point_mass(options.table);
   if (!read.has_value()) {
     return train_program::failed(program, read.error());
   }
   const learned_danger::ExactPointMass& exact = read.value();
-  const danger::ValueAt value = exact.value();
-  json figures;
   const fs::path folder = options.output;
   std::error_code problem;
   fs::create_directories(folder, problem);
-
-  Curve of_fitted("fitted iteration");
-  formats::Tensors fitted_weights;
-  {
-    const learned_danger::Outcomes outcomes = learned_danger::point_mass_outcomes(
-        exact.problem, value, options.states, options.plan.seed);
-    const auto fitted = network_training::fitted_values(
-        outcomes, options.plan, options.threads, folder / "fitted.state",
-        [&](const network_training::DangerProgress& now) { return of_fitted.add(now); });
-    if (!fitted.has_value()) {
-      return train_program::failed(program, fitted.error());
+  json figures;
+  for (const auto& [learn, key, file] : {std::tuple{&fitted_rung, "fitted_iteration", "fitted"},
+                                         std::tuple{&rung_from_data, "from_data", "from_data"}}) {
+    const auto rung = learn(options, exact);
+    if (!rung.has_value()) {
+      return train_program::failed(program, rung.error());
     }
     if (train_program::is_to_stop()) {
       return train_program::stopped(program);
     }
-    fitted.value()->add_to(fitted_weights, "v.");
-    figures["fitted_iteration"] = rung_figures(exact, value, fitted.value());
-    figures["fitted_iteration"]["seconds"] = of_fitted.seconds();
-    fmt::print("{}\n", figures["fitted_iteration"].dump());
-  }
-  learned_danger::Experience experience;
-  const learned_danger::Transitions made = learned_danger::point_mass_transitions(
-      exact.problem, value, options.drives, options.plan.seed + 1);
-  learned_danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
-  fmt::print("{} transitions\n", experience.size());
-  Curve of_offline("from data");
-  const auto nets = network_training::trained_danger(
-      experience, nullptr, options.plan, options.threads, folder / "offline.state",
-      [&](const network_training::DangerProgress& now) { return of_offline.add(now); });
-  if (!nets.has_value()) {
-    return train_program::failed(program, nets.error());
-  }
-  if (train_program::is_to_stop()) {
-    return train_program::stopped(program);
-  }
-  figures["from_data"] = rung_figures(exact, value, nets.value()->v);
-  figures["from_data"]["seconds"] = of_offline.seconds();
-  figures["from_data"]["transitions"] = experience.size();
-  fmt::print("{}\n", figures["from_data"].dump());
-  formats::Tensors weights;
-  nets.value()->add_to(weights, "");
-  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
-           {"fitted.safetensors", formats::tensor_bytes(fitted_weights)},
-           {"fitted.curve.csv", of_fitted.text()},
-           {"from_data.safetensors", formats::tensor_bytes(weights)},
-           {"from_data.curve.csv", of_offline.text()},
-           {"figures.json", figures.dump(2) + "\n"}}) {
-    if (const auto unwritable = write_file(folder / name, text)) {
-      return train_program::failed(program, *unwritable);
+    figures[key] = rung.value().figures;
+    fmt::print("{}\n", figures[key].dump());
+    for (const auto& [ending, text] :
+         {std::pair{".safetensors", formats::tensor_bytes(rung.value().weights)},
+          std::pair{".curve.csv", rung.value().curve}}) {
+      if (const auto unwritable = write_file(folder / (std::string(file) + ending), text)) {
+        return train_program::failed(program, *unwritable);
+      }
     }
+  }
+  if (const auto unwritable = write_file(folder / "figures.json", figures.dump(2) + "\n")) {
+    return train_program::failed(program, *unwritable);
   }
   fs::remove(folder / "fitted.state");
   fs::remove(folder / "offline.state");

@@ -17,7 +17,7 @@ TEST(CaseCard, ShowsTheCrashAndTheBestPlan) {
   EXPECT_EQ(card.title, "FARS Arizona 2016, ST_CASE 40001: rear_end, highway");
   ASSERT_EQ(card.lines.size(), 2U);
   EXPECT_THAT(card.lines[0], HasSubstr("the ego's front (as recorded)."));
-  EXPECT_THAT(card.lines[1], HasSubstr("best over the draws: AEB"));
+  EXPECT_THAT(card.lines[1], HasSubstr("best over the draws: 0 AEB"));
   EXPECT_EQ(card.done.title, "Without avoidance");
   EXPECT_EQ(card.done.policy, PolicyId::no_intervention);
   EXPECT_FALSE(card.done.contacts.empty()) << "it happens without avoidance";

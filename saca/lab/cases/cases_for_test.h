@@ -10,6 +10,7 @@
 #include "saca/lab/families/family.h"
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
+#include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/intent/cue_law.h"
 #include "saca/thinking/intent/shipped_model.h"
 
@@ -56,6 +57,8 @@ inline eval::CrashCase case_by_hand(const std::string& name = "fars_2016_40001")
     one.ranges.push_back({key, range.min, range.max, range.source});
   }
   one.ranges[0].source = "recorded: ego's TRAV_SP 45 mph";
+  one.judged.one.scene.ego_footprint = manoeuvre::footprint(shipped().car);
+  one.judged.one.scene.ego_mass = shipped().car.mass;
   one.judged.one.scene.ego.v_B = {20.0, 0.0};
   one.judged.one.plan = manoeuvre::Plan{.policy = manoeuvre::PolicyId::aeb, .strength = 1.0};
   one.judged.one.draws = 4;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "saca/base/world/scene.h"
@@ -22,8 +20,7 @@ class ToldCases {
 
  private:
   std::vector<memory::Case> cases_;
-  memory::Experience experience_;
-  std::unordered_map<match::CaseId, std::size_t> place_of_;
+  memory::Experience experience_;  ///< numbers them from 1 on, whatever their ids are
 };
 
 }  // namespace saca::cases

@@ -4,17 +4,17 @@
 
 #include <array>
 
-#include "saca/lab/suites/estimates.h"
+#include "saca/lab/eval/estimate_text.h"
 
 namespace saca::curricula {
 namespace {
 
+using eval::add_estimate;
 using eval::curriculum_methods;
 using eval::Episode;
 using eval::Episodes;
 using eval::Learner;
 using nlohmann::json;
-using suites::add_estimate;
 
 struct NamedMeasure {
   const char* key;

@@ -2,14 +2,14 @@
 
 #include <fmt/core.h>
 
-#include "saca/lab/suites/estimates.h"
+#include "saca/lab/eval/estimate_text.h"
 
 namespace saca::curricula {
 
 using eval::curriculum_methods;
 using eval::Episodes;
 using eval::Learner;
-using suites::with_interval;
+using eval::with_interval;
 
 std::string text_of(const std::vector<Episodes>& all) {
   std::string text =

@@ -20,6 +20,11 @@ namespace saca::eval {
                            factor * estimate.low, digits, factor * estimate.high, digits);
 }
 
+/// A share with one digit, in per cent; "-" where nothing counts.
+[[nodiscard]] inline std::string percent_of(const Estimate& estimate) {
+  return estimate.n == 0 ? "-" : fmt::format("{:.1f}", 100.0 * estimate.value);
+}
+
 /// Under its name, with .lo, .hi and .n; nothing where nothing counts.
 inline void add_estimate(nlohmann::json& out, const std::string& name, const Estimate& estimate) {
   if (estimate.n == 0) {

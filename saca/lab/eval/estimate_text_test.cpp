@@ -10,7 +10,9 @@ TEST(EstimateText, IsItsMeanWithTheInterval) {
   EXPECT_EQ(with_interval(quarter, 3), "0.250 (0.125 to 0.500)");
   EXPECT_EQ(with_interval(quarter, 1, 100.0), "25.0 (12.5 to 50.0)");
   EXPECT_EQ(with_interval(quarter, 0, 100.0), "25 (12 to 50)") << "of two as near the even one";
+  EXPECT_EQ(percent_of(quarter), "25.0");
   EXPECT_EQ(with_interval({}, 3), "-");
+  EXPECT_EQ(percent_of({}), "-");
 }
 
 TEST(EstimateText, ItsFiguresHaveItsName) {

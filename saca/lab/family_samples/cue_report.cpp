@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include "saca/base/core/proportion.h"
-#include "saca/lab/suites/estimates.h"
+#include "saca/lab/eval/estimate_text.h"
 
 namespace saca::family_samples {
 
+using eval::with_interval;
 using nlohmann::json;
-using suites::with_interval;
 using world::CueKind;
 using world::num_cue_kinds;
 
@@ -26,8 +26,8 @@ json json_of(std::string_view suite, std::span<const eval::CueForecast> forecast
   json figures = json::object();
   for (const eval::CueForecast& one : forecasts) {
     const std::string key = fmt::format("cues.{}.{}.", suite, one.key);
-    suites::add_estimate(figures, key + "log_loss", one.log_loss);
-    suites::add_estimate(figures, key + "brier", one.brier);
+    eval::add_estimate(figures, key + "log_loss", one.log_loss);
+    eval::add_estimate(figures, key + "brier", one.brier);
   }
   return figures;
 }

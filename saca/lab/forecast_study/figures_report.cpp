@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "saca/lab/suites/estimates.h"
+#include "saca/lab/eval/estimate_text.h"
 
 namespace saca::forecast_study {
 namespace {
@@ -24,9 +24,9 @@ void add_lines(nlohmann::json& out, const std::string& place,
   for (const FigureLine& line : lines) {
     const std::string key = fmt::format("{}.{}.{}.{}", place, forecast_figures()[line.figure].name,
                                         time_key(line), name(line.model));
-    suites::add_estimate(out, key, line.mean);
+    eval::add_estimate(out, key, line.mean);
     if (line.above_shipped) {
-      suites::add_estimate(out, key + ".above_shipped", *line.above_shipped);
+      eval::add_estimate(out, key + ".above_shipped", *line.above_shipped);
     }
   }
 }

@@ -23,6 +23,8 @@ using testing::ElementsAre;
 std::vector<arbitration::Preview> one_preview() {
   arbitration::Preview preview;
   preview.situation = language_model::example_situation();
+  preview.situation.spreads.assign(preview.situation.scene_at_trigger.actors.size(),
+                                   {.at = {world::Spread{}}});  // all is known exactly
   preview.newest_scene = preview.situation.scene_at_trigger;
   preview.prompt = language_model::scene_part(preview.situation, std::nullopt, 0.0);
   return {preview};
@@ -79,7 +81,7 @@ TEST_F(Considering, HoldsReasonsAgainstWhatIsComputed) {
   const auto all = of(said);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].preview, previews_.data());
-  EXPECT_EQ(all[0].truth.num_checked, 2);
+  EXPECT_EQ(all[0].truth.num_checked, 3);  // whom it hits, the harm, by how much it is clear
   EXPECT_TRUE(all[0].truth.wrong.empty());
   EXPECT_TRUE(all[0].check->passed) << "braking itself always passes";
   EXPECT_EQ(all[0].explanation->from, language_model::Explanation::From::model);

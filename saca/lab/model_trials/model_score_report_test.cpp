@@ -55,7 +55,7 @@ TEST(ModelScoreReport, IsADocument) {
 TEST(ModelScoreReport, IsToldWithATable) {
   const std::string text = model_score_text(score_by_hand(), "a model");
   EXPECT_THAT(text, testing::StartsWith("8 encounters, a model; means with 95 % intervals"));
-  EXPECT_THAT(text, HasSubstr("50.0 (25.0 to 75.0)   0.0625 (0.0000 to 0.1250)      37.5           "
+  EXPECT_THAT(text, HasSubstr("50.0 (25.0 to 75.0)  0.0625 (0.0000 to 0.1250)      37.5           "
                               "-         3\n"));
   EXPECT_THAT(text, HasSubstr("\nWith facts: of 8 forecasts asked about 50 % got an answer in "
                               "time, 75 % of these replies end by themselves; of 10 statements "

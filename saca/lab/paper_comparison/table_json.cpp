@@ -2,15 +2,15 @@
 
 #include <fmt/core.h>
 
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/paper_comparison/table_request.h"
-#include "saca/lab/suites/estimates.h"
 
 namespace saca::paper_comparison {
 
+using eval::add_estimate;
 using eval::Estimate;
 using eval::MethodFigures;
 using nlohmann::json;
-using suites::add_estimate;
 
 void add_figures(json& out, const TableFigures& figures) {
   const auto add_all = [&](const MethodFigures& one, const std::string& draws) {

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/eval/methods.h"
-#include "saca/lab/suites/estimates.h"
 
 namespace saca::paper_comparison {
 namespace {
 
 using eval::Estimate;
 using eval::MethodFigures;
-using suites::with_interval;
+using eval::with_interval;
 
 std::string false_triggers(const MethodFigures& one) {
   return with_interval(one.false_trigger_loss.value_or(Estimate{}), 2);

@@ -31,13 +31,16 @@ class ABank : public testing::Test {
             .car = {},
             .shipped = [this]() -> Result<std::vector<memory::Case>> {
               ++asked_;
-              return std::vector{memory::example_case(1), memory::example_case(2)};
+              std::vector cases{memory::example_case(1), memory::example_case(2)};
+              cases[0].id = 1;
+              cases[1].id = 2;
+              return cases;
             }};
   }
 };
 
 TEST_F(ABank, ThatIsNewBeginsWithWhatIsShipped) {
-  EXPECT_EQ(open_bank(request(BankUse::learn)).value()->size(), 2U);
+  ASSERT_TRUE(open_bank(request(BankUse::learn)).has_value());
   EXPECT_EQ(open_bank(request(BankUse::learn)).value()->size(), 2U);
   EXPECT_EQ(asked_, 1);  // the second time it is not empty
 }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/eval/methods.h"
 #include "saca/lab/suites/decisions.h"
-#include "saca/lab/suites/estimates.h"
 #include "saca/lab/suites/method_list.h"
 
 namespace saca::suites {

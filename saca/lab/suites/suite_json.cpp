@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/suites/decisions.h"
-#include "saca/lab/suites/estimates.h"
 #include "saca/lab/suites/method_list.h"
 
 namespace saca::suites {

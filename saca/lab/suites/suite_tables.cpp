@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/eval/methods.h"
-#include "saca/lab/suites/estimates.h"
 #include "saca/lab/suites/method_list.h"
 
 namespace saca::suites {

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/suites/decisions.h"
-#include "saca/lab/suites/estimates.h"
 
 namespace saca::suites {
 namespace {
