@@ -36,7 +36,7 @@ int bench(const BenchOptions& options) {
     return refused(read.error());
   }
   const Inputs& inputs = read.value();
-  SteadyClock clock;
+  const SteadyClock clock;
   json figures;
   const auto asked = [&](std::string_view what) {
     return options.what == "all" || options.what == what;

@@ -74,7 +74,7 @@ int calibrate(const CalibrateOptions& options) {
   if (const auto problem = long_work::why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
-  auto cases = banks::read_calibration_cases(options.cases, options.checks);
+  const auto cases = banks::read_calibration_cases(options.cases, options.checks);
   if (!cases.has_value()) {
     return refused(cases.error());
   }

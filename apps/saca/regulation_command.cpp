@@ -45,7 +45,7 @@ Result<std::optional<RegulationRun>> play(const RegulationOptions& options,
   if (!file.has_value()) {
     return file.error();
   }
-  auto imitators = suites::imitators_of(methods, places.value().root / "models");
+  const auto imitators = suites::imitators_of(methods, places.value().root / "models");
   if (!imitators.has_value()) {
     return imitators.error();
   }

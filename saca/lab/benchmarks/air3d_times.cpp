@@ -90,8 +90,8 @@ Result<json> times_in(const GameGrid& size, const json& reference, int repeats, 
       seconds = std::min(seconds, run.value().seconds);
       const double work = static_cast<double>(values.size()) * run.value().steps * game_stages;
       const std::string by = fmt::format(".t{}{}", threads, after);
-      figures[place + "seconds" + by] = seconds;
-      figures[place + "ns_per_point_stage" + by] = 1e9 * seconds / work;
+      figures[fmt::format("{}seconds{}", place, by)] = seconds;
+      figures[fmt::format("{}ns_per_point_stage{}", place, by)] = 1e9 * seconds / work;
       figures.update(errors_json(place, after, grid, values, reference));
     }
   }

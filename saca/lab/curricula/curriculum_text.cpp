@@ -31,7 +31,7 @@ std::string text_of(const std::vector<Episodes>& all) {
         remembers ? fmt::format("{:.0f}", eval::mean_size(all.back(), static_cast<Learner>(m)))
                   : "-");
   }
-  text += "\n";
+  text += '\n';
   for (const eval::MethodPair& pair : eval::curriculum_pairs) {
     text += fmt::format("{} does {} more harm than {}\n", curriculum_methods.at(pair.method),
                         with_interval(eval::harm_over(all, pair), 5),

@@ -36,7 +36,7 @@ std::string group_text(const FigureGroup& group) {
   for (const eval::MotionModel model : eval::motion_models) {
     text += fmt::format(" {:>17}", name(model));
   }
-  text += "\n";
+  text += '\n';
   const std::vector<FigureLine>& lines = group.lines;
   for (std::size_t i = 0; i < lines.size(); i += eval::motion_models.size()) {
     const ForecastFigure& figure = forecast_figures()[lines[i].figure];
@@ -46,7 +46,7 @@ std::string group_text(const FigureGroup& group) {
     for (std::size_t m = 0; m < eval::motion_models.size(); ++m) {
       text += fmt::format(" {:17.3f}", lines[i + m].mean.value);
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

@@ -47,13 +47,13 @@ std::string answers_text(const std::vector<Answer>& answers) {
   for (const PolicyId policy : manoeuvre::all_policies) {
     text += fmt::format(" {:>7}", name(policy));
   }
-  text += "\n";
+  text += '\n';
   for (const Answer& answer : answers) {
     text += fmt::format("{:>6.0f} ms {:>7}", milliseconds(answer.time), name(answer.kind));
     for (const double p : answer.probability) {
       text += fmt::format(" {:>5.0f} %", 100.0 * p);
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

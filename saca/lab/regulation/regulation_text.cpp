@@ -14,7 +14,7 @@ std::string text_of(const RegulationRun& run) {
   for (const std::string& method : run.methods) {
     text += fmt::format(" {:>20}", method);
   }
-  text += "\n";
+  text += '\n';
   const auto line = [&](const std::string& name, std::optional<std::size_t> car,
                         std::optional<std::size_t> row) {
     text += fmt::format("{:22}", name);
@@ -22,17 +22,17 @@ std::string text_of(const RegulationRun& run) {
       const PassCount sum = passed_by(run, {.method = m, .car = car, .row = row});
       text += fmt::format(" {:>20}", fmt::format("{} of {}", sum.passed, sum.all));
     }
-    text += "\n";
+    text += '\n';
   };
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
     line(run.regulation.rows[r].name, std::nullopt, r);
   }
-  text += "\n";
+  text += '\n';
   for (std::size_t k = 0; k < run.cars.size(); ++k) {
     line(run.cars[k], k, std::nullopt);
   }
   line("all", std::nullopt, std::nullopt);
-  text += "\n";
+  text += '\n';
   for (const std::string& sentence : constant_in_words(run)) {
     text += fmt::format("{}\n", sentence);
   }

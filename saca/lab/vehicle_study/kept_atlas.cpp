@@ -39,7 +39,8 @@ Result<std::optional<KeptAtlas>> built(const manoeuvre::Car& car, const fs::path
   if (nodes.value() == nullptr) {
     return std::optional<KeptAtlas>();
   }
-  auto problem = long_work::write_output(file, atlas::atlas_bytes(car, build.grid, *nodes.value()));
+  const auto problem =
+      long_work::write_output(file, atlas::atlas_bytes(car, build.grid, *nodes.value()));
   return std::optional(KeptAtlas{{build.grid, car.tuning.domain, nodes.value()}, problem});
 }
 
