@@ -1,3 +1,5 @@
+// Longer than 400 lines: one state machine over llama.cpp: prompts that are read, replies that are
+// written side by side, and a deadline over both.
 #include "engine.h"
 
 #include <llama.h>

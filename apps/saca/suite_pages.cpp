@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/lab/eval/suite_file.h"
 #include "saca/lab/long_work/output_file.h"
+#include "saca/lab/policy_study/policy_sheet.h"
 #include "saca/lab/suites/suite_page.h"
 
 namespace saca::app {

@@ -1,3 +1,5 @@
+// Longer than 400 lines: one reader for each structure of a tape, in the order in which
+// docs/formats.md has them.
 #include "saca/runtime/read_tape.h"
 
 #include <fmt/core.h>

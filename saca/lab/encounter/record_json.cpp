@@ -1,3 +1,5 @@
+// Longer than 400 lines: one writer for each structure of a record, in the order in which
+// docs/formats.md has them.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// Longer than 400 lines: one function for each kind of family, which a reader compares.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -17,15 +17,14 @@ families::FamilySample some_sample() {
                                 .cues = {{world::CueKind::parked_vans, true}}};
   sample.twin.name = "standing_car_twin";
   sample.twin.actors.clear();
-  for (scenario::Scenario *const one : {&sample.scenario, &sample.twin}) {
+  for (scenario::Scenario* const one : {&sample.scenario, &sample.twin}) {
     one->cues = {{.kind = world::CueKind::parked_vans, .p_W = {30.0, -4.25}}};
   }
   return sample;
 }
 
 report::SceneView picture(SampleSide side) {
-  return picture_of(some_sample(), side, prepare::default_car(),
-                    eval::shipped_harm());
+  return picture_of(some_sample(), side, prepare::default_car(), eval::shipped_harm());
 }
 
 TEST(SampleSheet, ShowsWhatComesOfDoingNothing) {
@@ -54,15 +53,13 @@ TEST(SampleSheet, IsHeadedByTheFamily) {
   family.why = "It is common.";
   const report::ContactSheet sheet = empty_sheet(family);
   EXPECT_EQ(sheet.heading, "crossing: A vehicle crosses");
-  EXPECT_THAT(sheet.lines, testing::ElementsAre("It is common.",
-                                                "Drawn: nobody intervenes."));
+  EXPECT_THAT(sheet.lines, testing::ElementsAre("It is common.", "Drawn: nobody intervenes."));
   EXPECT_TRUE(sheet.scenes.empty());
 }
 
 TEST(SampleSheet, ForProgramsASampleHasItsFileWhereItWasWritten) {
   const families::FamilySample sample = some_sample();
-  const nlohmann::json out =
-      json_of(chosen(sample, SampleSide::risk), "folder/standing_car.toml");
+  const nlohmann::json out = json_of(chosen(sample, SampleSide::risk), "folder/standing_car.toml");
   EXPECT_EQ(out["name"], "standing_car");
   EXPECT_EQ(out["file"], "folder/standing_car.toml");
   EXPECT_EQ(out["grip"], 0.9);
@@ -73,5 +70,5 @@ TEST(SampleSheet, ForProgramsASampleHasItsFileWhereItWasWritten) {
   EXPECT_EQ(twin["actors"], 0);
 }
 
-} // namespace
-} // namespace saca::family_samples::sample_sheet_test
+}  // namespace
+}  // namespace saca::family_samples::sample_sheet_test

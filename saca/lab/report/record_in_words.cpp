@@ -1,3 +1,5 @@
+// Longer than 400 lines: one explanation from its first sentence to its last, all of the same
+// record.
 #include "saca/lab/report/record_in_words.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,5 @@
+// Longer than 400 lines: what a log must hold is checked beside where it is read, and its messages
+// say both.
 #include "saca/lab/tune/fit_log.h"
 
 #include <fmt/format.h>

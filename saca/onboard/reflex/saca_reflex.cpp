@@ -1,3 +1,5 @@
+// Longer than 400 lines: the C interface is one piece: what is given and told crosses the border
+// between the languages here and nowhere else.
 #include "saca/onboard/reflex/saca_reflex.h"
 
 #include <algorithm>

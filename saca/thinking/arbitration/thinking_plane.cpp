@@ -1,3 +1,4 @@
+// Longer than 400 lines: the steps of one round of thinking, which share its state.
 #include "saca/thinking/arbitration/thinking_plane.h"
 
 #include <fmt/core.h>

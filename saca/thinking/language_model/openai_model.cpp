@@ -1,3 +1,5 @@
+// Longer than 400 lines: an exchange with a server and its calls are one state machine; apart,
+// each would show the other what is its own.
 #include "saca/thinking/language_model/openai_model.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,5 @@
+// Longer than 400 lines: all that a prompt says stands here: whoever changes a line of it has the
+// model trained anew.
 #include "saca/thinking/language_model/prompt.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// Longer than 400 lines: one class, and the statements of SQL that only it asks.
 #include "saca/thinking/memory/postgres_table.h"
 
 #include <fmt/core.h>

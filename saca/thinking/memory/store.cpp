@@ -1,3 +1,5 @@
+// Longer than 400 lines: one class, whose operations keep one promise: what was learnt is on the
+// disk or was refused.
 #include "saca/thinking/memory/store.h"
 
 #include <algorithm>
