@@ -106,6 +106,12 @@ Part read(formats::Hdf5Reader& reader) {
 
 std::optional<Error> write_part(const std::filesystem::path& path, const Part& part) {
   const Transitions& all = part.transitions;
+  if (all.size() == 0) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: want a transition in each part, got none of {} drives; more "
+                             "drives in a part have some",
+                             path.string(), all.drives)};
+  }
   formats::Hdf5Writer writer;
   writer.attribute(".", "car", part.car);
   writer.attribute(".", "seed", std::to_string(part.seed));

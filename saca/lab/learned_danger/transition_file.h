@@ -24,7 +24,8 @@ struct Part {
 /// `actions`, `rewards` (minus the size of the demand), `costs` (1 where h >= 0), `terminals`
 /// (settled), `timeouts` (cut off), and of our own `h`, `next_h` and `drives`. All are 32-bit
 /// floats; what the numbers of an observation are is the text `features`.
-/// @return  nullopt when it is on the disk, else the reason
+/// @return  nullopt when it is on the disk, else the reason; Error::Code::out_of_range of a part
+///          without a transition
 [[nodiscard]] std::optional<Error> write_part(const std::filesystem::path& path, const Part& part);
 
 /// @return  Error::Code::unreadable or ::malformed, naming file, part and what is wanted, where the

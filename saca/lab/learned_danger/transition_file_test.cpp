@@ -72,6 +72,18 @@ TEST_F(TransitionFile, HasTheLayoutOfDsrl) {
   }
 }
 
+// A drive may meet nobody from which anything is learnt.
+TEST_F(TransitionFile, IsNotMadeOfNothing) {
+  std::filesystem::remove(path_);
+  part_.transitions = {};
+  part_.transitions.drives = 1;
+  const auto problem = write_part(path_, part_);
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_EQ(problem->code, Error::Code::out_of_range);
+  EXPECT_NE(problem->message.find("got none of 1 drives"), std::string::npos) << problem->message;
+  EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
 TEST_F(TransitionFile, SaysWhatIsWrong) {
   std::filesystem::remove(path_);
   EXPECT_EQ(read_part(path_).error().code, Error::Code::unreadable);
