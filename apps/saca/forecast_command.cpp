@@ -25,11 +25,11 @@ using forecast_study::ForecastStudy;
 constexpr std::string_view traffic_name = "traffic";
 
 struct ForecastCommand {
-  SuiteCommandOptions from;  ///< which encounters; nothing is decided in them
+  suites::SuiteRequest from;  ///< which encounters; nothing is decided in them
   bool as_json = false;
 };
 
-Result<ForecastStudy> study_suite(const SuiteCommandOptions& options) {
+Result<ForecastStudy> study_suite(const suites::SuiteRequest& options) {
   const auto encounters = open_encounters(options, "forecast eval");
   if (!encounters.has_value()) {
     return encounters.error();
@@ -48,7 +48,7 @@ Result<ForecastStudy> study_suite(const SuiteCommandOptions& options) {
        .threads = options.threads});
 }
 
-Result<ForecastStudy> study_traffic(const SuiteCommandOptions& options) {
+Result<ForecastStudy> study_traffic(const suites::SuiteRequest& options) {
   if (options.data.empty()) {
     return Error{Error::Code::out_of_range,
                  "--data: want folders with CommonRoad files (*.xml), got none"};
@@ -66,14 +66,14 @@ Result<ForecastStudy> study_traffic(const SuiteCommandOptions& options) {
                                             .threads = options.threads});
 }
 
-std::string study_command(const SuiteCommandOptions& from) {
+std::string study_command(const suites::SuiteRequest& from) {
   return fmt::format("saca forecast eval {} --count {} --split {} --car {} --seed {}{}{}",
                      from.name, from.count, from.split, from.car, from.seed,
                      from.exact ? " --exact" : "", from.data.empty() ? "" : " --data FOLDER");
 }
 
 int run(const ForecastCommand& options) {
-  const SuiteCommandOptions& from = options.from;
+  const suites::SuiteRequest& from = options.from;
   if (const auto problem = long_work::why_outputs_unwritable({from.output})) {
     return refused(*problem);
   }
@@ -108,7 +108,7 @@ void add_forecast_eval(CLI::App& forecast, int& exit_code) {
   CLI::App* const command = forecast.add_subcommand(
       "eval", "Hold forecasts against what happens in many encounters, beside simpler ones");
   const auto options = std::make_shared<ForecastCommand>();
-  SuiteCommandOptions& from = options->from;
+  suites::SuiteRequest& from = options->from;
   add_encounter_options(*command, from);
   command->get_option("name")->description(
       "A suite (natural, balanced), a family, a folder of scenarios, 100car, or traffic: others "
@@ -126,11 +126,11 @@ void add_forecast_eval(CLI::App& forecast, int& exit_code) {
 
 }  // namespace
 
-forecast_study::Perceiver perceiver_of(const Inputs& inputs) {
+suites::Perceiver perceiver_of(const Inputs& inputs) {
   return {.car = &inputs.car, .harm = &inputs.harm, .intent = &inputs.intent};
 }
 
-void add_encounter_options(CLI::App& command, SuiteCommandOptions& from) {
+void add_encounter_options(CLI::App& command, suites::SuiteRequest& from) {
   command
       .add_option("name", from.name,
                   "A suite (natural, balanced), a family, a folder of scenarios, or 100car")

@@ -4,15 +4,15 @@
 
 #include "apps/saca/inputs.h"
 #include "apps/saca/suite_sources.h"
-#include "saca/lab/forecast_study/played_encounter.h"
+#include "saca/lab/suites/played_encounter.h"
 
 namespace saca::app {
 
 /// Refers to the inputs.
-[[nodiscard]] forecast_study::Perceiver perceiver_of(const Inputs& inputs);
+[[nodiscard]] suites::Perceiver perceiver_of(const Inputs& inputs);
 
 /// Which encounters, and what is drawn in them.
-void add_encounter_options(CLI::App& command, SuiteCommandOptions& from);
+void add_encounter_options(CLI::App& command, suites::SuiteRequest& from);
 
 /// `saca forecast show`.
 void add_forecast_show(CLI::App& forecast, int& exit_code);

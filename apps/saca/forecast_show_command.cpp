@@ -14,7 +14,7 @@ namespace saca::app {
 namespace {
 
 struct ShowCommand {
-  SuiteCommandOptions from;  ///< `count` follows from the encounter
+  suites::SuiteRequest from;  ///< `count` follows from the encounter
   std::uint64_t encounter = 0;
   std::string who;
   double at = 0.0;  ///< [s]
@@ -35,7 +35,7 @@ int show(ShowCommand options) {
                          encounters.value().count, options.encounter));
     return bad_input;
   }
-  const auto played = forecast_study::played_encounter(
+  const auto played = suites::played_encounter(
       encounters.value().at, {.seed = options.from.seed, .exact = options.from.exact},
       options.encounter);
   if (!played.has_value()) {

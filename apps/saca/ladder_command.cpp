@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct LadderCommand {
-  SuiteCommandOptions suite;
+  suites::SuiteRequest suite;
   bool as_json = false;
 };
 
 int run(LadderCommand options) {
-  SuiteCommandOptions& suite = options.suite;
+  suites::SuiteRequest& suite = options.suite;
   const std::string name = fs::path(suite.name).filename().string();
   if (suite.output.empty()) {
     suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);

@@ -67,7 +67,7 @@ Result<std::vector<memory::Case>> first_cases(const LearnRequest& request, const
 
 Result<Lessons> open_lessons(const LearnRequest& request) {
   Lessons lessons;
-  SuiteCommandOptions from = request.from;
+  suites::SuiteRequest from = request.from;
   from.count *= request.seeds;
   auto encounters = open_encounters(from, "learn");
   if (!encounters.has_value()) {
@@ -214,7 +214,7 @@ void add_learn(CLI::App& line, int& exit_code) {
       "remembers nothing, and one that is lied to");
   const auto options = std::make_shared<LearnOptions>();
   LearnRequest& learn = options->learn;
-  SuiteCommandOptions& from = learn.from;
+  suites::SuiteRequest& from = learn.from;
   from.count = 200;
   add_encounter_options(*command, from);
   command->get_option("--count")->description("How many encounters of each seed");

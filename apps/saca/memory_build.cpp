@@ -22,7 +22,7 @@ namespace saca::app {
 namespace {
 
 struct BuildOptions {
-  SuiteCommandOptions from;  ///< which encounters; nobody acts in them
+  suites::SuiteRequest from;  ///< which encounters; nobody acts in them
   std::size_t draws = 64;
   bool no_twins = false;
   bool as_json = false;
@@ -30,7 +30,7 @@ struct BuildOptions {
 
 Result<std::optional<banks::CaseBuild>> built_cases(const BuildOptions& options,
                                                     const std::string& command) {
-  const SuiteCommandOptions& from = options.from;
+  const suites::SuiteRequest& from = options.from;
   auto opened = open_encounters(from, command);
   if (!opened.has_value()) {
     return opened.error();
@@ -54,7 +54,7 @@ Result<std::optional<banks::CaseBuild>> built_cases(const BuildOptions& options,
 }
 
 int build(const BuildOptions& options) {
-  const SuiteCommandOptions& from = options.from;
+  const suites::SuiteRequest& from = options.from;
   if (const auto problem = long_work::why_outputs_unwritable({from.output})) {
     return refused(*problem);
   }
@@ -90,7 +90,7 @@ void add_memory_build(CLI::App& memory, int& exit_code) {
   CLI::App* const command = memory.add_subcommand(
       "build", "Makes cases of the encounters of a suite, as JSON Lines for `import`");
   const auto options = std::make_shared<BuildOptions>();
-  SuiteCommandOptions& from = options->from;
+  suites::SuiteRequest& from = options->from;
   from.split = "tuning";
   from.output = "runs/cases.jsonl";
   add_encounter_options(*command, from);

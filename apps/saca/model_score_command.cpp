@@ -27,7 +27,7 @@ int model_score(const ScoreOptions& options) {
     return refused({Error::Code::malformed, "--llm: want a language model to ask, got `off`"});
   }
   const SurveyOptions& survey = options.survey;
-  const SuiteCommandOptions suite{
+  const suites::SuiteRequest suite{
       .name = survey.suite,
       .count = survey.count,
       .split = survey.split,

@@ -10,7 +10,7 @@
 
 namespace saca::app {
 
-/// Adds benchmarks::coarse_air3d_times. What it is at is told on the error stream.
+/// Adds benchmarks::coarse_air3d_times. Its progress stands on the error stream.
 /// @param root  holds data/
 [[nodiscard]] std::optional<Error> bench_air3d(const std::filesystem::path& root,
                                                const Clock& clock, nlohmann::json& figures);

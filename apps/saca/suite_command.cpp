@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct SuiteCommand {
-  SuiteCommandOptions suite;
+  suites::SuiteRequest suite;
   std::optional<std::uint64_t> replay;
   std::string rows;  ///< of a regulation
   bool as_json = false;
@@ -33,7 +33,7 @@ struct SuiteCommand {
 constexpr const char* traffic_suite = "traffic";
 
 std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const json& figures,
-                           const SuiteCommandOptions& options) {
+                           const suites::SuiteRequest& options) {
   if (auto problem = write_rows_and_page(run, result, options)) {
     return problem;
   }
@@ -42,7 +42,7 @@ std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const
 }
 
 int watch(const SuiteCommand& options) {
-  const SuiteCommandOptions& suite = options.suite;
+  const suites::SuiteRequest& suite = options.suite;
   return run_traffic_suite(
       {.folders = suite.data,
        .count = suite.count,
@@ -89,7 +89,7 @@ int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
 
 /// Why the line cannot be meant as it stands; nullopt: it can.
 std::optional<std::string> why_wrong(const CLI::App& line, const SuiteCommand& options) {
-  const SuiteCommandOptions& suite = options.suite;
+  const suites::SuiteRequest& suite = options.suite;
   if (!options.rows.empty()) {
     return "--rows: want it of a regulation (fmvss127, r152), got " + suite.name;
   }
@@ -102,7 +102,7 @@ std::optional<std::string> why_wrong(const CLI::App& line, const SuiteCommand& o
   return std::nullopt;
 }
 
-int replay(const SuiteCommandOptions& suite, std::uint64_t number) {
+int replay(const suites::SuiteRequest& suite, std::uint64_t number) {
   const auto command = write_encounter(suite, number);
   if (!command.has_value()) {
     return refused(command.error());
@@ -111,7 +111,7 @@ int replay(const SuiteCommandOptions& suite, std::uint64_t number) {
   return success;
 }
 
-int write_and_print(const SuiteRun& run, const SuiteCommandOptions& suite, bool as_json) {
+int write_and_print(const SuiteRun& run, const suites::SuiteRequest& suite, bool as_json) {
   const SuiteResult result = result_of(run, suite.seed);
   const json figures = suites::json_of(run, result, suite);
   if (const auto problem = write(run, result, figures, suite)) {
@@ -126,7 +126,7 @@ int write_and_print(const SuiteRun& run, const SuiteCommandOptions& suite, bool 
   return result.faults + result.method_faults > 0 ? some_failed : success;
 }
 
-int play(SuiteCommandOptions suite, const std::vector<std::string>& methods, bool as_json) {
+int play(suites::SuiteRequest suite, const std::vector<std::string>& methods, bool as_json) {
   if (suite.output.empty()) {
     suite.output =
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
@@ -150,7 +150,7 @@ int run(const CLI::App& line, SuiteCommand options) {
   if (!places.has_value()) {
     return refused(places.error());
   }
-  SuiteCommandOptions& suite = options.suite;
+  suites::SuiteRequest& suite = options.suite;
   if (fs::exists(regulation_path(places.value(), suite.name))) {
     return run_as_regulation(line, options);
   }

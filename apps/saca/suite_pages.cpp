@@ -10,7 +10,7 @@
 namespace saca::app {
 
 std::optional<Error> write_rows_and_page(const SuiteRun& run, const SuiteResult& result,
-                                         const SuiteCommandOptions& options) {
+                                         const suites::SuiteRequest& options) {
   if (auto problem = eval::write_suite(options.output, run.rows, run.methods, run.meta.dump())) {
     return problem;
   }

@@ -3,14 +3,10 @@
 #include <optional>
 
 #include "apps/saca/suite_running.h"
-#include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/suites/suite_result.h"
 
 namespace saca::app {
 
-using eval::add_estimate;
-using eval::with_interval;
-using suites::footnotes_of;
 using suites::result_of;
 using suites::SuiteResult;
 
@@ -18,6 +14,6 @@ using suites::SuiteResult;
 /// @return  nullopt, else what could not be written
 [[nodiscard]] std::optional<Error> write_rows_and_page(const SuiteRun& run,
                                                        const SuiteResult& result,
-                                                       const SuiteCommandOptions& options);
+                                                       const suites::SuiteRequest& options);
 
 }  // namespace saca::app

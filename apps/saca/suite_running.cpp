@@ -23,8 +23,8 @@ namespace {
 
 /// The weights that are named.
 /// @return  an error where they are of another car
-Result<std::shared_ptr<const learned_danger::Network>> danger_of(const SuiteCommandOptions& options,
-                                                                 const Inputs& inputs) {
+Result<std::shared_ptr<const learned_danger::Network>> danger_of(
+    const suites::SuiteRequest& options, const Inputs& inputs) {
   if (options.danger.empty()) {
     return std::shared_ptr<const learned_danger::Network>();
   }
@@ -41,7 +41,7 @@ Result<std::shared_ptr<const learned_danger::Network>> danger_of(const SuiteComm
   return std::make_shared<const learned_danger::Network>(std::move(weights).value().network);
 }
 
-Result<suites::SuiteBench> open_bench(const SuiteCommandOptions& options,
+Result<suites::SuiteBench> open_bench(const suites::SuiteRequest& options,
                                       const std::string& command,
                                       const std::vector<std::string>& methods) {
   auto source = open_encounters(options, command);
@@ -92,7 +92,7 @@ suites::SuiteCaller caller_of(const std::string& command) {
           .display = progress_display()};
 }
 
-Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
+Result<std::optional<SuiteRun>> run_suite(const suites::SuiteRequest& options,
                                           const std::string& command,
                                           const std::vector<std::string>& methods) {
   auto bench = open_bench(options, command, methods);
@@ -102,7 +102,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   return suites::play_suite(std::move(bench).value(), options, methods, caller_of(command));
 }
 
-Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uint64_t number) {
+Result<std::string> write_encounter(const suites::SuiteRequest& options, std::uint64_t number) {
   const auto source = open_encounters(options, "suite");
   if (!source.has_value()) {
     return source.error();
@@ -117,7 +117,7 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
   return replay.value().command;
 }
 
-void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
+void add_suite_options(CLI::App& command, suites::SuiteRequest& options) {
   command
       .add_option(
           "name", options.name,

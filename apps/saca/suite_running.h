@@ -17,12 +17,10 @@
 
 namespace saca::app {
 
-using SuiteCommandOptions = suites::SuiteRequest;
-using suites::index_of;
 using suites::methods_from;
 using suites::SuiteRun;
 
-void add_suite_options(CLI::App& command, SuiteCommandOptions& options);
+void add_suite_options(CLI::App& command, suites::SuiteRequest& options);
 
 /// Opens models as `--llm` names them, in lockstep.
 /// @param clock  outlives what is returned, and the models
@@ -33,7 +31,7 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options);
 
 /// Writes an encounter as a scenario file, as the suite plays it.
 /// @return  what plays it again, as a command line
-[[nodiscard]] Result<std::string> write_encounter(const SuiteCommandOptions& options,
+[[nodiscard]] Result<std::string> write_encounter(const suites::SuiteRequest& options,
                                                   std::uint64_t number);
 
 /// Opens all that is named and plays it, with progress on the error stream and a journal that the
@@ -41,7 +39,7 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options);
 /// @param command  as the user gave it, for records
 /// @param methods  names of eval::methods(), in the order of tables
 /// @return         nullopt: interrupted
-[[nodiscard]] Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
+[[nodiscard]] Result<std::optional<SuiteRun>> run_suite(const suites::SuiteRequest& options,
                                                         const std::string& command,
                                                         const std::vector<std::string>& methods);
 

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using suites::EncounterSource;
 
 /// What is no suite: recordings, a folder of scenarios, a table of the paper.
-Result<EncounterSource> open_source(const SuiteCommandOptions& options, const Inputs& inputs,
+Result<EncounterSource> open_source(const suites::SuiteRequest& options, const Inputs& inputs,
                                     suites::Twins twins) {
   const suites::EncounterDraw draw{
       .car_name = inputs.car_name, .car = &inputs.car, .count = options.count};
@@ -41,7 +41,7 @@ std::vector<std::string> names_beside_suites() {
 
 }  // namespace
 
-Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
+Result<SuiteEncounters> open_encounters(const suites::SuiteRequest& options,
                                         const std::string& command) {
   const suites::Twins twins = options.no_twins ? suites::Twins::left_out : suites::Twins::played;
   if (options.name == "100car" || eval::find_paper_table(options.name) != nullptr ||

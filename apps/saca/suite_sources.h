@@ -15,7 +15,7 @@ struct SuiteEncounters : suites::EncounterSource {
 
 /// Opens what the options name.
 /// @param command  that asks, for the log of the test split
-[[nodiscard]] Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
+[[nodiscard]] Result<SuiteEncounters> open_encounters(const suites::SuiteRequest& options,
                                                       const std::string& command);
 
 }  // namespace saca::app

@@ -67,7 +67,7 @@ std::optional<int> add_table(const PaperTable& table, const TableRequest& reques
     return refused(conditions.error());
   }
   const std::size_t num = conditions.value().size();
-  const SuiteCommandOptions suite = suite_of(table, num, request);
+  const suites::SuiteRequest suite = suite_of(table, num, request);
   const auto ran = run_suite(suite, "suite", methods);
   if (!ran.has_value()) {
     return refused(ran.error());

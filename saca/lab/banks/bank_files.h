@@ -15,7 +15,7 @@ namespace saca::banks {
 /// @return  unreadable where it cannot be opened; malformed, naming the file, where it is damaged
 [[nodiscard]] Result<std::vector<memory::Case>> read_cases(const std::string& file);
 
-/// Those of several files, one after the other; the first that cannot be read is told.
+/// Those of several files, one after the other; an error names the first that cannot be read.
 [[nodiscard]] Result<std::vector<memory::Case>> read_cases(const std::vector<std::string>& files);
 
 /// The cases that are shipped (data/memory/seed.jsonl.gz): trusted by the car and the harm that

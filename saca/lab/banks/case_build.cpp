@@ -33,9 +33,9 @@ std::array<int, manoeuvre::num_policies> best_of(const CaseBuild& build) {
 
 }  // namespace
 
-EncounterCases cases_of(const forecast_study::PlayedEncounter& encounter, const CaseTools& tools,
+EncounterCases cases_of(const suites::PlayedEncounter& encounter, const CaseTools& tools,
                         TwinCases twins) {
-  const forecast_study::Perceiver perceiver{tools.forecast.car, tools.forecast.harm, tools.intent};
+  const suites::Perceiver perceiver{tools.forecast.car, tools.forecast.harm, tools.intent};
   EncounterCases gained;
   add_case_at_trigger(gained, encounter.stage(perceiver), tools);
   if (encounter.twin && twins == TwinCases::made) {
@@ -47,7 +47,7 @@ EncounterCases cases_of(const forecast_study::PlayedEncounter& encounter, const 
 Result<std::optional<CaseBuild>> build_cases(const CaseSource& source, const CaseTools& tools,
                                              const CaseWork& work) {
   const auto row_of = [&](std::size_t number) {
-    const auto played = forecast_study::played_encounter(source.at, source.play, number);
+    const auto played = suites::played_encounter(source.at, source.play, number);
     return played.has_value() ? cases_of(played.value(), tools, source.twins)
                               : EncounterCases{{}, played.error().message};
   };

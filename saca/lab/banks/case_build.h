@@ -8,9 +8,9 @@
 
 #include "saca/base/core/result.h"
 #include "saca/lab/banks/case_tools.h"
-#include "saca/lab/forecast_study/played_encounter.h"
 #include "saca/lab/long_work/items_row.h"
 #include "saca/lab/long_work/progress.h"
+#include "saca/lab/suites/played_encounter.h"
 #include "saca/thinking/memory/case.h"
 
 namespace saca::banks {
@@ -21,14 +21,14 @@ enum class TwinCases { made, left_out };
 /// What an encounter gives: a case, and one of its twin where there is one; none where the trigger
 /// never fires (eval::case_at_trigger).
 using EncounterCases = long_work::ItemsRow<memory::Case>;
-[[nodiscard]] EncounterCases cases_of(const forecast_study::PlayedEncounter& encounter,
+[[nodiscard]] EncounterCases cases_of(const suites::PlayedEncounter& encounter,
                                       const CaseTools& tools, TwinCases twins);
 
 /// Encounters that cases are made of.
 struct CaseSource {
-  forecast_study::EncounterAt at;  ///< asked from several threads
+  suites::EncounterAt at;  ///< asked from several threads
   std::size_t count = 0;
-  forecast_study::PlayOptions play;
+  suites::PlayOptions play;
   TwinCases twins = TwinCases::made;
 };
 

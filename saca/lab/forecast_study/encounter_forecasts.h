@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "saca/base/core/result.h"
 #include "saca/lab/eval/forecast_score.h"
 
 namespace saca::forecast_study {
@@ -14,6 +16,17 @@ struct EncounterForecasts {
   std::string problem;  ///< why there are none; empty: nothing went wrong
   std::vector<eval::ForecastSample> samples;
 };
+
+/// With the samples, or why there are none.
+[[nodiscard]] inline EncounterForecasts with_samples(
+    EncounterForecasts one, Result<std::vector<eval::ForecastSample>> samples) {
+  if (samples.has_value()) {
+    one.samples = std::move(samples).value();
+  } else {
+    one.problem = samples.error().message;
+  }
+  return one;
+}
 
 /// Of all encounters.
 struct ForecastStudy {

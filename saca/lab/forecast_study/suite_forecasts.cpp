@@ -11,21 +11,16 @@ namespace {
 
 EncounterForecasts forecasts_in(const SuiteStudy& study, std::uint64_t number) {
   EncounterForecasts one;
-  const auto played = played_encounter(study.at, study.play, number);
+  const auto played = suites::played_encounter(study.at, study.play, number);
   if (!played.has_value()) {
     one.problem = played.error().message;
     return one;
   }
   one.family = played.value().family;
-  auto samples = eval::forecast_samples(
-      played.value().stage(study.perceiver),
-      {.mixture = study.mixture, .seed = eval::encounter_seed(study.play.seed, number)});
-  if (samples.has_value()) {
-    one.samples = std::move(samples).value();
-  } else {
-    one.problem = samples.error().message;
-  }
-  return one;
+  return with_samples(std::move(one), eval::forecast_samples(
+                                          played.value().stage(study.perceiver),
+                                          {.mixture = study.mixture,
+                                           .seed = eval::encounter_seed(study.play.seed, number)}));
 }
 
 }  // namespace

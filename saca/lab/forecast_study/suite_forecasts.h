@@ -7,7 +7,7 @@
 #include "saca/base/core/result.h"
 #include "saca/lab/eval/mixture_lstm.h"
 #include "saca/lab/forecast_study/encounter_forecasts.h"
-#include "saca/lab/forecast_study/played_encounter.h"
+#include "saca/lab/suites/played_encounter.h"
 
 namespace saca::forecast_study {
 
@@ -18,11 +18,11 @@ namespace saca::forecast_study {
 
 /// Encounters of a suite, and how they are played.
 struct SuiteStudy {
-  EncounterAt at;  ///< asked from several threads
+  suites::EncounterAt at;  ///< asked from several threads
   std::size_t count = 0;
-  Perceiver perceiver;
+  suites::Perceiver perceiver;
   const eval::MixtureModel* mixture = nullptr;  ///< outlives the study
-  PlayOptions play;
+  suites::PlayOptions play;
   int threads = 1;  ///< they do not change the result
 };
 

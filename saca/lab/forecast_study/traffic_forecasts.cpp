@@ -63,14 +63,9 @@ EncounterForecasts forecasts_of_drive(const TrafficStudy& study, const eval::Tra
                                .intent = &models.intent,
                                .thresholds = {},
                                .chance = {.perception = study.play.exact ? 0 : seed}};
-  auto samples = eval::forecast_samples(stage, {.mixture = &models.mixture, .seed = seed},
-                                        made.value().window);
-  if (samples.has_value()) {
-    one.samples = std::move(samples).value();
-  } else {
-    one.problem = samples.error().message;
-  }
-  return one;
+  return with_samples(std::move(one),
+                      eval::forecast_samples(stage, {.mixture = &models.mixture, .seed = seed},
+                                             made.value().window));
 }
 
 }  // namespace

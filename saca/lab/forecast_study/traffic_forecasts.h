@@ -7,7 +7,7 @@
 #include "saca/base/core/result.h"
 #include "saca/lab/eval/traffic_drives.h"
 #include "saca/lab/forecast_study/encounter_forecasts.h"
-#include "saca/lab/forecast_study/played_encounter.h"
+#include "saca/lab/suites/played_encounter.h"
 
 namespace saca::forecast_study {
 
@@ -20,7 +20,7 @@ struct TrafficStudy {
   std::filesystem::path models;                ///< the folder models/
   const manoeuvre::Car* car = nullptr;         ///< outlives the study
   const collision::HarmModel* harm = nullptr;  ///< likewise
-  PlayOptions play;
+  suites::PlayOptions play;
   int threads = 1;  ///< they do not change the result
 };
 

@@ -6,6 +6,7 @@
 
 #include "saca/lab/eval/estimate_text.h"
 #include "saca/lab/eval/methods.h"
+#include "saca/lab/suites/suite_tables.h"
 
 namespace saca::paper_comparison {
 namespace {
@@ -69,14 +70,8 @@ report::PageTable page_table(const TableFigures& figures) {
   }
   for (std::size_t m = 0; m < figures.all.size(); ++m) {
     const MethodFigures& one = figures.all[m];
-    const eval::MethodInfo& info = *eval::find_method(one.method);
     page.rows.push_back(our_row(figures, m));
-    page.chart->rows.push_back({.name = std::string(info.title),
-                                .looks = info.knows_truth ? "fill-grey" : "fill-blue",
-                                .note = fmt::format("{:.2f}", one.collision_loss.value),
-                                .value = one.collision_loss.value,
-                                .low = one.collision_loss.low,
-                                .high = one.collision_loss.high});
+    page.chart->rows.push_back(suites::method_dot(one.method, one.collision_loss, 2));
   }
   return page;
 }

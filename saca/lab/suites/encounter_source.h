@@ -15,12 +15,15 @@
 
 namespace saca::suites {
 
+/// Encounter `number` of a source.
+using EncounterAt = std::function<Result<eval::SuiteEncounter>(std::uint64_t number)>;
+
 /// Where encounters come from: families of a suite, files, recordings or a table of the paper.
 struct EncounterSource {
   std::string what;                ///< names all on which the encounters depend
   int count = 0;                   ///< as many as were asked for and there are
   std::vector<std::string> notes;  ///< on where they come from
-  std::function<Result<eval::SuiteEncounter>(std::uint64_t number)> at;
+  EncounterAt at;
 };
 
 /// Whether encounters have their twins without risk.

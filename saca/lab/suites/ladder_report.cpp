@@ -9,6 +9,7 @@
 #include "saca/lab/eval/methods.h"
 #include "saca/lab/suites/decisions.h"
 #include "saca/lab/suites/method_list.h"
+#include "saca/lab/suites/suite_tables.h"
 
 namespace saca::suites {
 namespace {
@@ -33,13 +34,11 @@ report::DotChart regret_chart(const std::vector<RungFigures>& climbed) {
                          .rows = {}};
   for (const RungFigures& one : climbed) {
     const Estimate& regret = one.figures.regret;
-    chart.rows.push_back(
-        {.name = title_of(one.rung.method),
-         .looks = eval::find_method(one.rung.method)->knows_truth ? "fill-grey" : "fill-blue",
-         .note = fmt::format("{:.4f}", regret.value),
-         .value = std::max(0.0, regret.value),
-         .low = std::clamp(regret.low, 0.0, std::max(0.0, regret.value)),
-         .high = std::max({0.0, regret.value, regret.high})});
+    report::DotRow row = method_dot(one.rung.method, regret, 4);
+    row.value = std::max(0.0, regret.value);
+    row.low = std::clamp(regret.low, 0.0, *row.value);
+    row.high = std::max(*row.value, regret.high);
+    chart.rows.push_back(std::move(row));
   }
   return chart;
 }

@@ -27,6 +27,15 @@ std::vector<const SuiteRow*> recorded_rows(const SuiteRun& run) {
 
 }  // namespace
 
+report::DotRow method_dot(std::string_view method, const eval::Estimate& figure, int digits) {
+  return {.name = title_of(method),
+          .looks = eval::find_method(method)->knows_truth ? "fill-grey" : "fill-blue",
+          .note = fmt::format("{:.{}f}", figure.value, digits),
+          .value = figure.value,
+          .low = figure.low,
+          .high = figure.high};
+}
+
 report::DotChart harm_chart(const SuiteResult& result) {
   report::DotChart chart{
       .heading = "Harm per encounter",
@@ -36,13 +45,8 @@ report::DotChart harm_chart(const SuiteResult& result) {
       .axis_unit = "-",
       .rows = {}};
   for (const MethodFigures& one : result.all) {
-    const bool yardstick = eval::find_method(one.method)->knows_truth;
-    chart.rows.push_back({.name = title_of(one.method),
-                          .looks = yardstick ? "fill-grey" : "fill-blue",
-                          .note = fmt::format("{:.4f}", one.harm.value),
-                          .value = one.harm.value,
-                          .low = std::max(0.0, one.harm.low),
-                          .high = one.harm.high});
+    chart.rows.push_back(method_dot(one.method, one.harm, 4));
+    chart.rows.back().low = std::max(0.0, one.harm.low);
   }
   return chart;
 }

@@ -1,20 +1,19 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "saca/base/core/result.h"
 #include "saca/lab/encounter/closed_loop.h"
-#include "saca/lab/eval/suite.h"
 #include "saca/lab/scenario/chance.h"
 #include "saca/lab/scenario/scenario.h"
+#include "saca/lab/suites/encounter_source.h"
 #include "saca/onboard/collision/harm.h"
 #include "saca/onboard/manoeuvre/car.h"
 #include "saca/thinking/intent/model.h"
 
-namespace saca::forecast_study {
+namespace saca::suites {
 
 /// The car that perceives, and what it believes by. What it points to outlives what uses it.
 struct Perceiver {
@@ -42,12 +41,9 @@ struct PlayedEncounter {
   [[nodiscard]] encounter::Stage twin_stage(const Perceiver& perceiver) const;
 };
 
-/// Encounter `number` of a source.
-using EncounterAt = std::function<Result<eval::SuiteEncounter>(std::uint64_t number)>;
-
 /// @return  as `at`
 [[nodiscard]] Result<PlayedEncounter> played_encounter(const EncounterAt& at,
                                                        const PlayOptions& options,
                                                        std::uint64_t number);
 
-}  // namespace saca::forecast_study
+}  // namespace saca::suites

@@ -1,8 +1,8 @@
-#include "saca/lab/forecast_study/played_encounter.h"
+#include "saca/lab/suites/played_encounter.h"
 
 #include "saca/base/core/contract.h"
 
-namespace saca::forecast_study {
+namespace saca::suites {
 
 encounter::Stage PlayedEncounter::stage(const Perceiver& perceiver) const {
   return {.scenario = &world,
@@ -36,4 +36,4 @@ Result<PlayedEncounter> played_encounter(const EncounterAt& at, const PlayOption
                                      : std::nullopt};
 }
 
-}  // namespace saca::forecast_study
+}  // namespace saca::suites

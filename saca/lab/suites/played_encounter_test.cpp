@@ -1,11 +1,11 @@
-#include "saca/lab/forecast_study/played_encounter.h"
+#include "saca/lab/suites/played_encounter.h"
 
 #include <gtest/gtest.h>
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/eval/scenes_for_test.h"
 
-namespace saca::forecast_study::played_encounter_test {
+namespace saca::suites::played_encounter_test {
 namespace {
 
 /// Encounter 7, with a twin of another duration; there is no other.
@@ -64,4 +64,4 @@ TEST(PlayedEncounter, IsAStageAndSoIsItsTwin) {
 }
 
 }  // namespace
-}  // namespace saca::forecast_study::played_encounter_test
+}  // namespace saca::suites::played_encounter_test
