@@ -14,6 +14,7 @@
 
 #include "saca/base/core/processor_time.h"
 #include "thread_choice.h"
+#include "token_choice.h"
 #include "utf8.h"
 
 namespace saca::model_host {
@@ -34,7 +35,7 @@ constexpr int batch_capacity = 512;
 // busy machine steps vary by about two.
 constexpr double reserve_factor = 2.0;
 
-constexpr ReplyForm rehearsed{.max_tokens = 2};
+constexpr int rehearsed_tokens = 2;
 constexpr std::size_t telling_tokens = 64;  // a shorter prompt says nothing of a token's cost
 
 // Asked after what was generated so far. The tokeniser splits ": 6" into ":", " " and "6", so that
@@ -106,22 +107,6 @@ class Batch {
   llama_batch batch_;
 };
 
-using Sampler = std::unique_ptr<llama_sampler, decltype(&llama_sampler_free)>;
-
-// Of the likeliest tokens that make up this much of the probability one is drawn: the rest is what
-// nobody would write.
-constexpr float nucleus = 0.95F;
-
-Sampler sampler(int seed) {
-  Sampler chain(llama_sampler_chain_init(llama_sampler_chain_default_params()),
-                &llama_sampler_free);
-  const auto temperature = static_cast<float>(language_model::sampling_temperature);
-  llama_sampler_chain_add(chain.get(), llama_sampler_init_top_p(nucleus, 1));
-  llama_sampler_chain_add(chain.get(), llama_sampler_init_temp(temperature));
-  llama_sampler_chain_add(chain.get(), llama_sampler_init_dist(static_cast<std::uint32_t>(seed)));
-  return chain;
-}
-
 // Largest cost of the last steps, forgotten slowly [s].
 class RecentCost {
  public:
@@ -141,10 +126,16 @@ struct SceneProgress {
   int tokens = 0;
   std::string text;
   Utf8Splitter splitter;
-  Sampler sampler{nullptr, &llama_sampler_free};  // nullptr: greedy
-  bool reasoning = false;                         // the next token is wanted
-  bool answered = false;                          // for good
+  TokenChoice choice;
+  bool reasoning = false;  // the next token is wanted
+  bool answered = false;   // for good
   AnswerKind end = AnswerKind::forced;
+};
+
+// A scene to be thought about.
+struct Task {
+  Tokens prompt;
+  TokenChoice choice;
 };
 
 }  // namespace
@@ -194,13 +185,8 @@ struct Engine::State {
     return llama_decode(context, batch.get()) == 0;
   }
 
-  [[nodiscard]] llama_token chosen(const SceneProgress& thought, int batch_index) const {
-    if (thought.sampler != nullptr) {
-      return llama_sampler_sample(thought.sampler.get(), context, batch_index);
-    }
-    const float* logits = llama_get_logits_ith(context, batch_index);
-    const float* end = logits + llama_vocab_n_tokens(vocab);
-    return static_cast<llama_token>(std::max_element(logits, end) - logits);
+  [[nodiscard]] llama_token chosen(SceneProgress& thought, int batch_index) const {
+    return thought.choice.next(llama_get_logits_ith(context, batch_index));
   }
 
   [[nodiscard]] std::vector<double> digit_logits(int batch_index) const {
@@ -403,46 +389,51 @@ struct Engine::State {
     return least_token_cost * static_cast<double>(prompt.size());
   }
 
-  [[nodiscard]] Result<std::vector<Tokens>> prompts(const std::vector<std::string>& scenes,
-                                                    int max_tokens) const {
-    std::vector<Tokens> result;
+  [[nodiscard]] Result<std::vector<Task>> tasks(const std::vector<std::string>& scenes,
+                                                const ReplyForm& form) const {
+    std::vector<Task> result;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       // Markers of the chat form are never read from a scene: they stay plain text.
       Tokens tokens = tokenised(vocab, scenes[i], false);
       tokens.insert(tokens.end(), prompt_tail.begin(), prompt_tail.end());
       const std::size_t room = static_cast<std::size_t>(system_tokens) + tokens.size() +
-                               static_cast<std::size_t>(max_tokens) + stem.size();
+                               static_cast<std::size_t>(form.max_tokens) + stem.size();
       if (room > static_cast<std::size_t>(settings.context)) {
         return Error{Error::Code::malformed, "scene " + std::to_string(i) + ": want at most " +
                                                  std::to_string(settings.context) +
                                                  " tokens with the reply, got " +
                                                  std::to_string(room)};
       }
-      result.push_back(std::move(tokens));
+      auto choice = TokenChoice::make(vocab, form.grammars.empty() ? "" : form.grammars[i],
+                                      form.sampling_seed);
+      if (!choice.has_value()) {
+        return Error{choice.error().code,
+                     "scene " + std::to_string(i) + ": " + choice.error().message};
+      }
+      result.push_back({std::move(tokens), std::move(choice).value()});
     }
     return result;
   }
 
   // All of an ask: prompts and first answers, reasoning, last answers.
-  AskFigures think(const std::vector<Tokens>& scenes, Clock::Time deadline, const ReplyForm& form,
-                   Clock& its_clock, const EngineEvents& events) {
+  AskFigures think(std::vector<Task> tasks, Clock::Time deadline, int max_tokens, Clock& its_clock,
+                   const EngineEvents& events) {
     clock = &its_clock;
     is_cancelled = events.is_cancelled;
     AskFigures figures;
-    figures.prompt_tokens.resize(scenes.size());
-    std::vector<SceneProgress> thoughts(scenes.size());
+    figures.prompt_tokens.resize(tasks.size());
+    std::vector<SceneProgress> thoughts;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      thoughts.push_back({.scene = i, .choice = std::move(tasks[i].choice)});
+    }
     bool in_time = true;
-    for (std::size_t i = 0; in_time && i < scenes.size(); ++i) {
-      thoughts[i].scene = i;
-      if (form.sampling_seed != 0) {
-        thoughts[i].sampler = sampler(form.sampling_seed);
-      }
-      in_time = begin_scene(thoughts[i], scenes[i], deadline, figures, events);
+    for (std::size_t i = 0; in_time && i < thoughts.size(); ++i) {
+      in_time = begin_scene(thoughts[i], tasks[i].prompt, deadline, figures, events);
     }
     figures.overran = !in_time;
     const auto reasons = [](const SceneProgress& thought) { return thought.reasoning; };
     while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
-      in_time = reason_on(thoughts, form.max_tokens, deadline, figures, events);
+      in_time = reason_on(thoughts, max_tokens, deadline, figures, events);
       // Who has ended says so at once: the others may still take long.
       figures.overran |= !conclude(thoughts, AnswerKind::ended, deadline, events);
     }
@@ -543,18 +534,26 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
   // Warms the caches up, and tells what a step and an answer cost before time matters.
   const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
                             [](std::size_t, AnswerKind, const std::vector<double>&) {}};
-  const auto prompts = s.prompts({max_scenes, "Ready?"}, rehearsed.max_tokens);
-  if (!prompts.has_value()) {
-    return prompts.error();
-  }
-  for (std::size_t scenes = 1; s.threads.gives_way() && scenes <= max_scenes; ++scenes) {
+  const std::vector<std::string> scenes(max_scenes, "Ready?");
+  const auto rehearse = [&](std::size_t count) -> std::optional<Error> {
+    auto tasks = s.tasks({scenes.begin(), scenes.begin() + static_cast<std::ptrdiff_t>(count)},
+                         {.max_tokens = rehearsed_tokens});
+    if (!tasks.has_value()) {
+      return tasks.error();
+    }
+    s.think(std::move(tasks).value(), Clock::Time::max(), rehearsed_tokens, clock, nobody);
+    return std::nullopt;
+  };
+  for (std::size_t count = 1; s.threads.gives_way() && count <= max_scenes; ++count) {
     s.threads.take_one();
-    s.think(
-        {prompts.value().begin(), prompts.value().begin() + static_cast<std::ptrdiff_t>(scenes)},
-        Clock::Time::max(), rehearsed, clock, nobody);
+    if (const auto problem = rehearse(count)) {
+      return *problem;
+    }
   }
   s.threads.take_all();
-  s.think(prompts.value(), Clock::Time::max(), rehearsed, clock, nobody);
+  if (const auto problem = rehearse(max_scenes)) {
+    return *problem;
+  }
   return static_cast<int>(tokens.size());
 }
 
@@ -562,21 +561,23 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                const ReplyForm& form, Clock& clock, const EngineEvents& events) {
   expects(!scenes.empty() && scenes.size() <= max_scenes, "1 to 3 scenes");
   expects(form.max_tokens >= 0, "max_tokens >= 0");
+  expects(form.grammars.empty() || form.grammars.size() == scenes.size(),
+          "a grammar for each scene");
   State& s = *state_;
   if (s.system_tokens == 0) {
     return Error{Error::Code::malformed, "ask: want a system part first"};
   }
-  const Result<std::vector<Tokens>> prompts = s.prompts(scenes, form.max_tokens);
-  if (!prompts.has_value()) {
-    return prompts.error();
+  auto tasks = s.tasks(scenes, form);
+  if (!tasks.has_value()) {
+    return tasks.error();
   }
   const double left = to_seconds(deadline - clock.now());
-  if (const double least = s.least_cost(prompts.value().front()); left < least) {
+  if (const double least = s.least_cost(tasks.value().front().prompt); left < least) {
     return Error{Error::Code::too_late, "no time: to read a scene takes " + std::to_string(least) +
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.threads.take_all();
-  return s.think(prompts.value(), deadline, form, clock, events);
+  return s.think(std::move(tasks).value(), deadline, form.max_tokens, clock, events);
 }
 
 std::string Engine::description() const {

@@ -39,10 +39,11 @@ struct EngineEvents {
   std::function<bool()> is_cancelled = {};
 };
 
-/// What each reply is to be like.
+/// What the replies are to be like.
 struct ReplyForm {
-  int max_tokens = 0;     ///< of reasoning, >= 0
-  int sampling_seed = 0;  ///< as language_model::AskOptions has it
+  int max_tokens = 0;                      ///< of reasoning, >= 0
+  int sampling_seed = 0;                   ///< as language_model::AskOptions has it
+  std::vector<std::string> grammars = {};  ///< as language_model::AskOptions has them
 };
 
 /// Figures of one `ask`.
@@ -81,7 +82,8 @@ class Engine {
   /// For each scene in turn the prompt is evaluated and its first answer read; then all reason
   /// together; each final answer is read from the eight digits' logits after what was generated.
   ///
-  /// @return  malformed when a prompt does not fit or no system part is set
+  /// @return  malformed when a prompt does not fit, a grammar cannot be read or no system part is
+  ///          set
   [[nodiscard]] Result<AskFigures> ask(const std::vector<std::string>& scenes, Clock::Time deadline,
                                        const ReplyForm& form, Clock& clock,
                                        const EngineEvents& events);

@@ -119,6 +119,33 @@ TEST_F(HostTest, ASeedDrawsAnotherReplyAndAlwaysTheSame) {
   EXPECT_EQ(reasoning(3), reasoning(3));
 }
 
+// What replies may say, whatever the weights would write; the answer after it is theirs.
+TEST_F(HostTest, AReplyKeepsToItsGrammar) {
+  language_model::ChildModel model(settings(24), clock_);
+  const auto ask = [&](int seed) {
+    return model.ask({scene_, scene_, scene_}, clock_.now() + patience, nobody_,
+                     {.sampling_seed = seed,
+                      .grammars = {"root ::= (\"Brake\" | \"Steer\") \"!\\nResponse to user:\"\n",
+                                   "", "root ::= \"Enough.\"\n"}});
+  };
+  for (const int seed : {0, 1}) {
+    const auto replies = ask(seed);
+    ASSERT_TRUE(replies.has_value()) << replies.error().message;
+    const std::string& text = replies.value()[0].reasoning;
+    EXPECT_TRUE(text == "Brake!\nResponse to user:" || text == "Steer!\nResponse to user:") << text;
+    EXPECT_EQ(replies.value()[0].answers.back().kind, Answer::Kind::ended);
+    EXPECT_EQ(replies.value()[1].reply_tokens, 24) << "no grammar";
+    EXPECT_EQ(replies.value()[2].reasoning, "Enough.");
+    EXPECT_EQ(replies.value()[2].answers.back().kind, Answer::Kind::ended);
+  }
+  EXPECT_EQ(ask(1).value()[0].reasoning, ask(1).value()[0].reasoning);
+  const auto refused =
+      model.ask({scene_}, clock_.now() + patience, nobody_, {.grammars = {"root ::= ("}});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("grammar"), std::string::npos) << refused.error().message;
+  EXPECT_EQ(model.restarts(), 0);
+}
+
 // Shared prefix or not, alone or beside others: a scene's first answer is its own.
 TEST_F(HostTest, OtherScenesDoNotChangeAFirstAnswer) {
   situation_.scene_at_trigger.ego.v_B.x = 9.0;

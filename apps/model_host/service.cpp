@@ -69,6 +69,10 @@ class Service {
       say(protocol::FailureMessage{ask.id, "ask: want 1 to 3 scenes and at most 4096 tokens each"});
       return;
     }
+    if (!ask.grammars.empty() && ask.grammars.size() != ask.scenes.size()) {
+      say(protocol::FailureMessage{ask.id, "ask: want a grammar for each scene, or none"});
+      return;
+    }
     const EngineEvents events{
         [&](std::size_t scene, int tokens) {
           say(protocol::PromptRead{ask.id, scene, tokens});
@@ -88,8 +92,9 @@ class Service {
         }};
     const double longest = 3600.0;  // [s]: nobody waits longer, and the sum below stays in range
     const auto budget = from_seconds(std::min(ask.budget, longest));
-    const auto figures = engine_->ask(ask.scenes, arrival + budget,
-                                      {ask.max_tokens, ask.sampling_seed}, clock_, events);
+    const auto figures =
+        engine_->ask(ask.scenes, arrival + budget,
+                     {ask.max_tokens, ask.sampling_seed, ask.grammars}, clock_, events);
     if (!figures.has_value()) {
       say(protocol::FailureMessage{ask.id, figures.error().message,
                                    figures.error().code == Error::Code::too_late});

@@ -24,13 +24,15 @@ struct CasesEvalOptions {
   std::string set = "test";
   std::size_t count = 0;  ///< at most so many cases; 0: all of the set
   std::string output = "runs/replies.jsonl";
+  bool unconstrained = false;
   bool as_json = false;
 };
 
 std::string command_of(const CasesEvalOptions& options) {
   return fmt::format("cases eval {} --set {}{} --llm {} {}", options.examples.file, options.set,
                      options.count > 0 ? fmt::format(" --count {}", options.count) : "",
-                     options.model, cases::example_text(options.examples));
+                     options.model + (options.unconstrained ? " --unconstrained" : ""),
+                     cases::example_text(options.examples));
 }
 
 /// Tells the score, and what could not be asked.
@@ -77,10 +79,12 @@ int eval_cases(const CasesEvalOptions& options) {
   auto gathered = cases::model_replies(
       source, *model.value(), clock,
       {.journal = options.output + ".journal",
-       .title = fmt::format("saca {} cases eval --set {} --car {} --seed {}", version_text(),
-                            options.set, options.examples.car, options.examples.seed),
+       .title = fmt::format("saca {} cases eval --set {} --car {} --seed {}{}", version_text(),
+                            options.set, options.examples.car, options.examples.seed,
+                            options.unconstrained ? " --unconstrained" : ""),
        .display = progress_display(),
-       .words = options.examples.seed});
+       .words = options.examples.seed,
+       .constrained = !options.unconstrained});
   if (!gathered.has_value()) {
     return refused(gathered.error());
   }
@@ -115,6 +119,8 @@ void add_cases_eval(CLI::App& cases, int& exit_code) {
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--output,-o", options->output, "Where the replies go, a line each")
       ->capture_default_str();
+  command->add_flag("--unconstrained", options->unconstrained,
+                    "Do not hold replies to what is true while they are written");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = eval_cases(*options); });
 }

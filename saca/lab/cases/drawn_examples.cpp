@@ -7,6 +7,7 @@
 #include "saca/lab/cases/case_stage.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/arbitration/forecaster.h"
+#include "saca/thinking/language_model/reply_grammar.h"
 
 namespace saca::cases {
 
@@ -55,11 +56,17 @@ void add_example(DrawnExamples& all, const scenario::Scenario& drawn, ReplyExamp
   const auto told = source.told ? source.told->in(now.situation.scene_at_trigger) : std::nullopt;
   auto made = eval::reply_example(std::move(example), now.situation, told, words);
   if (made) {
-    all.examples.push_back({*std::move(made), std::move(now.situation)});
+    all.examples.push_back({.example = *std::move(made),
+                            .situation = std::move(now.situation),
+                            .nearest = told ? std::optional(told->found) : std::nullopt});
   }
 }
 
 }  // namespace
+
+std::string DrawnExample::grammar(const std::optional<manoeuvre::PolicyId>& choice) const {
+  return language_model::reply_grammar(situation, example.prompt, nearest, choice);
+}
 
 DrawnExamples drawn_examples(const CrashCase& one, const ExampleSource& source,
                              std::uint64_t words) {

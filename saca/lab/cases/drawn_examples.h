@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "saca/lab/cases/example_source.h"
 #include "saca/lab/eval/crash_case.h"
 #include "saca/lab/eval/reply_example.h"
+#include "saca/thinking/memory/case.h"
 #include "saca/thinking/preview/situation.h"
 
 namespace saca::cases {
@@ -15,6 +17,11 @@ namespace saca::cases {
 struct DrawnExample {
   eval::ReplyExample example;
   preview::Situation situation;
+  std::optional<memory::Case> nearest;  ///< that the prompt tells of
+
+  /// What a reply may say (language_model::reply_grammar).
+  [[nodiscard]] std::string grammar(
+      const std::optional<manoeuvre::PolicyId>& choice = std::nullopt) const;
 };
 /// Of one case and of its twin, where their triggers fire.
 struct DrawnExamples {

@@ -29,18 +29,21 @@ using ReplyRow = long_work::ItemsRow<ExampleReply>;
 
 /// @param failure  why the model cannot be asked any more, if that is so: the row is then worth
 ///                 nothing. That an answer is malformed is something that the model said
-ReplyRow asked_about(DrawnExamples drawn, language_model::LanguageModel& model, const Clock& clock,
+ReplyRow asked_about(DrawnExamples drawn, const ReplyWork& work,
+                     language_model::LanguageModel& model, const Clock& clock,
                      std::optional<Error>& failure) {
   ReplyRow row{.items = {}, .problem = std::move(drawn.problem)};
   if (drawn.examples.empty()) {
     return row;
   }
-  std::vector<std::string> scenes;
+  language_model::Question put;
   for (const DrawnExample& each : drawn.examples) {
-    scenes.push_back(each.example.prompt);
+    put.scenes.push_back(each.example.prompt);
+    put.grammars.push_back(work.constrained ? each.grammar() : "");
   }
   const auto replies =
-      model.ask(scenes, clock.now() + patience_with_model, [](const language_model::Progress&) {});
+      model.ask(put.scenes, clock.now() + patience_with_model,
+                [](const language_model::Progress&) {}, {.grammars = put.grammars});
   const std::string record = drawn.examples.front().example.record;
   const auto note = [&](const Error& problem) {
     row.problem = record + ": " + problem.message;
@@ -55,10 +58,13 @@ ReplyRow asked_about(DrawnExamples drawn, language_model::LanguageModel& model, 
     return row;
   }
   for (std::size_t i = 0; i < drawn.examples.size(); ++i) {
-    DrawnExample& each = drawn.examples[i];
-    row.items.push_back(
-        eval::example_reply(std::move(each.example), replies.value()[i], each.situation));
-    if (const auto problem = eval::try_again(row.items.back(), each.situation, model, clock)) {
+    const DrawnExample& each = drawn.examples[i];
+    row.items.push_back(eval::example_reply(each.example, replies.value()[i], each.situation));
+    const auto grammar = [&](manoeuvre::PolicyId choice) {
+      return work.constrained ? each.grammar(choice) : "";
+    };
+    if (const auto problem =
+            eval::try_again(row.items.back(), each.situation, model, clock, grammar)) {
       note(*problem);
     }
   }
@@ -102,8 +108,8 @@ Result<std::optional<long_work::AllItems<ExampleReply>>> model_replies(
        .threads = 1,  // the model uses all cores
        .row =
            [&](std::size_t i) {
-             return asked_about(drawn_examples(source.cases[i], source, work.words), model, clock,
-                                failure);
+             return asked_about(drawn_examples(source.cases[i], source, work.words), work, model,
+                                clock, failure);
            },
        .line_of = long_work::items_line<ExampleReply>,
        .row_from =

@@ -31,6 +31,8 @@ struct ReplyWork {
   std::string title;    ///< of the journal: program and command
   long_work::ProgressDisplay display = long_work::ProgressDisplay::shown;
   std::uint64_t words = 1;  ///< seed of the expert's words
+  /// Replies may say what is true (language_model::reply_grammar), else anything.
+  bool constrained = true;
 };
 
 /// What a model replies about each case and its twin, without haste, from where the journal ends

@@ -262,13 +262,15 @@ ExampleReply example_reply(ReplyExample example, const language_model::Reply& re
 }
 
 std::optional<Error> try_again(ExampleReply& reply, const preview::Situation& situation,
-                               language_model::LanguageModel& model, const Clock& clock) {
+                               language_model::LanguageModel& model, const Clock& clock,
+                               const ChoiceGrammar& grammar) {
   if (!reply.last) {
     return std::nullopt;  // there is no choice to give reasons for
   }
   const auto told = language_model::told_again(
       model, clock, reply.example.prompt, {.text = {}, .from = reply.shown},
-      [&](std::string_view written) { return shown_by(written, reply, situation); });
+      [&](std::string_view written) { return shown_by(written, reply, situation); },
+      {.grammars = {grammar(likeliest(reply.last))}});
   if (!told.has_value()) {
     return told.error();
   }

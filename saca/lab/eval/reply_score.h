@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -43,14 +44,18 @@ struct ExampleReply {
 [[nodiscard]] ExampleReply example_reply(ReplyExample example, const language_model::Reply& reply,
                                          const preview::Situation& situation);
 
+/// What a text may say that comes to a policy (language_model::reply_grammar); empty: anything.
+using ChoiceGrammar = std::function<std::string(manoeuvre::PolicyId)>;
+
 /// Asks the model again where its words would not be shown: sets `shown_at_last` and `tries`.
 /// Without a last answer there is nothing to be shown.
 /// @param situation  that the example's prompt is about
+/// @param grammar    what its words may be where they come to a policy (AskOptions)
 /// @return           the model's error
 [[nodiscard]] std::optional<Error> try_again(ExampleReply& reply,
                                              const preview::Situation& situation,
                                              language_model::LanguageModel& model,
-                                             const Clock& clock);
+                                             const Clock& clock, const ChoiceGrammar& grammar);
 
 [[nodiscard]] nlohmann::json to_json(const ExampleReply& reply);
 /// Strict.

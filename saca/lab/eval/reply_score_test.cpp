@@ -196,9 +196,10 @@ TEST(ReplyScoreTest, WhatDoesNotHoldIsTriedAgain) {
   wrong.example.prompt = language_model::scene_part(situation, std::nullopt, 0.0);
   ExampleReply silent = wrong;
   silent.last.reset();
-  EXPECT_EQ(try_again(silent, situation, model, clock), std::nullopt);
+  const auto anything = [](PolicyId) { return std::string(); };
+  EXPECT_EQ(try_again(silent, situation, model, clock, anything), std::nullopt);
   EXPECT_EQ(model.num_asked(), 0);
-  EXPECT_EQ(try_again(wrong, situation, model, clock), std::nullopt);
+  EXPECT_EQ(try_again(wrong, situation, model, clock, anything), std::nullopt);
   EXPECT_EQ(wrong.shown_at_last, language_model::Explanation::From::model);
   EXPECT_EQ(wrong.tries, 2);
   EXPECT_EQ(wrong.shown, language_model::Explanation::From::facts);

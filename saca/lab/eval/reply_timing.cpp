@@ -12,31 +12,31 @@ using Kind = language_model::Answer::Kind;
 class Listening final : public language_model::LanguageModel {
  public:
   [[nodiscard]] std::string description() const override { return "nobody"; }
-  [[nodiscard]] const std::vector<std::string>& first() const { return first_; }
+  [[nodiscard]] const language_model::Question& first() const { return first_; }
 
  private:
   [[nodiscard]] Result<std::vector<language_model::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time /*deadline*/,
       const std::function<void(const language_model::Progress&)>& /*progress*/,
-      const language_model::AskOptions& /*options*/) override {
-    if (first_.empty()) {
-      first_ = scenes;
+      const language_model::AskOptions& options) override {
+    if (first_.scenes.empty()) {
+      first_ = {scenes, options.grammars};
     }
     return Error{Error::Code::too_late, "nobody answers"};
   }
 
-  std::vector<std::string> first_;
+  language_model::Question first_;
 };
 
 }  // namespace
 
-std::vector<std::vector<std::string>> first_questions(std::span<const SuiteEncounter> encounters,
+std::vector<language_model::Question> first_questions(std::span<const SuiteEncounter> encounters,
                                                       const SuiteOptions& options,
                                                       const runtime::PlanesSetup& saca,
                                                       const intent::Model& intent) {
   SuiteOptions alone = options;
   alone.methods = {"saca"};
-  std::vector<std::vector<std::string>> questions;
+  std::vector<language_model::Question> questions;
   for (const SuiteEncounter& encounter : encounters) {
     Listening listening;
     runtime::PlanesSetup setup = saca;
@@ -45,7 +45,7 @@ std::vector<std::vector<std::string>> first_questions(std::span<const SuiteEncou
     SuiteEncounter with_risk = encounter;
     with_risk.twin.reset();
     (void)run_encounter(with_risk, alone, setup, intent);
-    if (!listening.first().empty()) {
+    if (!listening.first().scenes.empty()) {
       questions.push_back(listening.first());
     }
   }
@@ -53,19 +53,20 @@ std::vector<std::vector<std::string>> first_questions(std::span<const SuiteEncou
 }
 
 Result<ReplyTimes> timed_replies(language_model::LanguageModel& model, const Clock& clock,
-                                 std::span<const std::vector<std::string>> questions,
+                                 std::span<const language_model::Question> questions,
                                  double in_time, double patience, const std::stop_token& stop) {
   ReplyTimes times;
   std::vector<std::optional<double>> tokens;
   std::vector<std::optional<double>> seconds;
-  for (const std::vector<std::string>& scenes : questions) {
+  for (const language_model::Question& question : questions) {
     if (stop.stop_requested()) {
       break;
     }
     const Clock::Time begin = clock.now();
-    const auto replies = model.ask(scenes, begin + from_seconds(patience),
-                                   [](const language_model::Progress&) {}, {.stop = stop});
-    times.asked += static_cast<int>(scenes.size());
+    const auto replies = model.ask(question.scenes, begin + from_seconds(patience),
+                                   [](const language_model::Progress&) {},
+                                   {.stop = stop, .grammars = question.grammars});
+    times.asked += static_cast<int>(question.scenes.size());
     if (!replies.has_value()) {
       if (replies.error().code == Error::Code::too_late) {
         continue;

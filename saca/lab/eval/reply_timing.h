@@ -12,10 +12,9 @@
 namespace saca::eval {
 
 /// What SACA asks a model at first in each of these encounters, if no answer ever came and there
-/// were no memory: scene parts of the prompt, up to three. None of an encounter in which nothing is
-/// asked.
+/// were no memory: about up to three scenes. None of an encounter in which nothing is asked.
 /// @param saca  its model and memory are not asked
-[[nodiscard]] std::vector<std::vector<std::string>> first_questions(
+[[nodiscard]] std::vector<language_model::Question> first_questions(
     std::span<const SuiteEncounter> encounters, const SuiteOptions& options,
     const runtime::PlanesSetup& saca, const intent::Model& intent);
 
@@ -42,7 +41,7 @@ struct ReplyTimes {
 /// @return          of what was asked until then; what went wrong if the model cannot be reached
 [[nodiscard]] Result<ReplyTimes> timed_replies(language_model::LanguageModel& model,
                                                const Clock& clock,
-                                               std::span<const std::vector<std::string>> questions,
+                                               std::span<const language_model::Question> questions,
                                                double in_time, double patience,
                                                const std::stop_token& stop = {});
 

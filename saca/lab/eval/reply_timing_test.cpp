@@ -28,8 +28,8 @@ TEST(ReplyTiming, CountsWhatIsDoneByItselfAndInTime) {
             .reply_tokens = scene == "slow" ? 120 : 60};
       },
       clock);
-  const std::vector<std::vector<std::string>> questions{
-      {"fast", "slow"}, {"cut"}, {"fast"}, {"silent"}};
+  const std::vector<language_model::Question> questions{
+      {{"fast", "slow"}, {}}, {{"cut"}, {}}, {{"fast"}, {}}, {{"silent"}, {}}};
   const ReplyTimes times = timed_replies(model, clock, questions, 4.2, 60.0).value();
   EXPECT_EQ(times.asked, 5);
   EXPECT_EQ(times.done, 4);
@@ -44,7 +44,7 @@ TEST(ReplyTiming, CountsWhatIsDoneByItselfAndInTime) {
 TEST(ReplyTiming, WhoNeverAnswersIsAskedAndWhoCannotBeReachedIsAnError) {
   ManualClock clock;
   language_model::ScriptedModel silent(language_model::ScriptedReply{}, clock);
-  const std::vector<std::vector<std::string>> questions{{"a"}, {"b"}};
+  const std::vector<language_model::Question> questions{{{"a"}, {}}, {{"b"}, {}}};
   const ReplyTimes times = timed_replies(silent, clock, questions, 4.2, 1.0).value();
   EXPECT_EQ(times.asked, 2);
   EXPECT_EQ(times.ended, 0);
@@ -71,9 +71,10 @@ TEST(ReplyTiming, TheFirstQuestionIsOfTheForecastsMadeAtFirst) {
   const auto questions =
       first_questions(both, {.methods = {}, .seed = 1}, setup, intent::shipped_model());
   ASSERT_EQ(questions.size(), 2U) << "nothing is asked where nobody is";
-  EXPECT_EQ(questions[0], questions[1]) << "the same draws";
-  EXPECT_LE(questions[0].size(), language_model::most_scenes);
-  EXPECT_THAT(questions[0].front(), testing::HasSubstr("car1"));
+  EXPECT_EQ(questions[0].scenes, questions[1].scenes) << "the same draws";
+  EXPECT_LE(questions[0].scenes.size(), language_model::most_scenes);
+  EXPECT_THAT(questions[0].scenes.front(), testing::HasSubstr("car1"));
+  EXPECT_THAT(questions[0].grammars.front(), testing::HasSubstr("car1"));
 }
 
 }  // namespace

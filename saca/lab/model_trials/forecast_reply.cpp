@@ -15,17 +15,19 @@ using language_model::Reply;
 Result<std::vector<Reply>> replies_about(const std::vector<Preview>& previews,
                                          language_model::LanguageModel& model, Clock::Time patience,
                                          const Clock& clock, const TextListener& listener) {
-  std::vector<std::string> scenes;
-  scenes.reserve(previews.size());
+  language_model::Question put;
   for (const Preview& preview : previews) {
-    scenes.push_back(preview.prompt);
+    put.scenes.push_back(preview.prompt);
+    put.grammars.push_back(arbitration::grammar_of(preview));
   }
   const Clock::Time begin = clock.now();
-  auto replies = model.ask(scenes, begin + patience, [&](const language_model::Progress& news) {
-    if (!news.text.empty()) {
-      listener(news.prompt, news.text);
-    }
-  });
+  auto replies = model.ask(put.scenes, begin + patience,
+                           [&](const language_model::Progress& news) {
+                             if (!news.text.empty()) {
+                               listener(news.prompt, news.text);
+                             }
+                           },
+                           {.grammars = put.grammars});
   if (!replies.has_value()) {
     return replies.error();
   }

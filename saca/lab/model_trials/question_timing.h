@@ -12,7 +12,7 @@
 namespace saca::model_trials {
 
 /// Three forecasts that differ as previews do: in what the truck does, and what that leads to.
-[[nodiscard]] std::vector<std::string> example_scenes();
+[[nodiscard]] language_model::Question example_question();
 
 /// What one question took.
 struct QuestionTiming {
@@ -25,11 +25,11 @@ struct QuestionTiming {
   language_model::ChildModelFigures figures;  ///< where the model is a child process
 };
 
-/// Asks about scenes, and takes the time.
+/// Puts a question, and takes the time.
 /// @param budget  until the last answer [s]
 /// @param clock   of the model
 [[nodiscard]] QuestionTiming timed_question(language_model::LanguageModel& model,
-                                            const std::vector<std::string>& scenes, double budget,
+                                            const language_model::Question& question, double budget,
                                             const Clock& clock);
 
 }  // namespace saca::model_trials

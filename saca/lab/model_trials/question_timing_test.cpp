@@ -17,8 +17,11 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 TEST(QuestionTimingTest, ExamplesDifferAsPreviewsDo) {
-  const std::vector<std::string> scenes = example_scenes();
+  const language_model::Question question = example_question();
+  const std::vector<std::string>& scenes = question.scenes;
   ASSERT_EQ(scenes.size(), 3U);
+  ASSERT_EQ(question.grammars.size(), 3U);
+  EXPECT_THAT(question.grammars[1], HasSubstr("truck1"));
   EXPECT_THAT(scenes[0], HasSubstr("7.5 m/s"));
   EXPECT_THAT(scenes[1], HasSubstr("5.0 m/s"));
   EXPECT_NE(scenes[1], scenes[2]);
@@ -37,7 +40,8 @@ TEST(QuestionTimingTest, TakesTheTimeOfTheFirstAnswersAndOfAll) {
                    .policy = PolicyId::aeb}}};
   };
   ScriptedModel model(script, clock);
-  const QuestionTiming asked = timed_question(model, {"a", "b"}, 2.0, clock);
+  const QuestionTiming asked =
+      timed_question(model, {.scenes = {"a", "b"}, .grammars = {}}, 2.0, clock);
   EXPECT_DOUBLE_EQ(asked.first, 0.25) << "of the slower one";
   EXPECT_DOUBLE_EQ(asked.whole, 0.5);
   EXPECT_EQ(asked.missing, 0);
@@ -49,7 +53,8 @@ TEST(QuestionTimingTest, TakesTheTimeOfTheFirstAnswersAndOfAll) {
 TEST(QuestionTimingTest, WhatFailsHasNoAnswer) {
   ManualClock clock;
   ScriptedModel model(ScriptedReply{.error = Error{Error::Code::too_late, "too slow"}}, clock);
-  const QuestionTiming asked = timed_question(model, {"a", "b"}, 2.0, clock);
+  const QuestionTiming asked =
+      timed_question(model, {.scenes = {"a", "b"}, .grammars = {}}, 2.0, clock);
   EXPECT_EQ(asked.missing, 2);
   EXPECT_EQ(asked.error->message, "too slow");
   EXPECT_TRUE(asked.replies.empty());

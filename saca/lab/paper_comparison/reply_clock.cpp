@@ -12,7 +12,7 @@ namespace {
 using eval::PaperTable;
 
 /// The first questions in about ten draws of a table, as many of each condition.
-Result<std::vector<std::vector<std::string>>> questions_of(const PaperTable& table,
+Result<std::vector<language_model::Question>> questions_of(const PaperTable& table,
                                                            const ReplyClock& clock,
                                                            std::uint64_t seed) {
   const auto conditions = eval::encounters_of(table, clock.scenarios, *clock.car);

@@ -8,6 +8,7 @@
 #include "saca/base/core/names.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/reply_grammar.h"
 #include "saca/thinking/language_model/retelling.h"
 
 namespace saca::arbitration {
@@ -81,6 +82,11 @@ std::string prompt_of(const Preview& preview) {
                                     preview.nearest ? preview.nearest->similarity : 0.0);
 }
 
+std::string grammar_of(const Preview& preview, const std::optional<manoeuvre::PolicyId>& choice) {
+  return language_model::reply_grammar(preview.situation, asked_prompt(preview), told_case(preview),
+                                       choice);
+}
+
 std::optional<language_model::Explanation> explanation(const Preview& preview) {
   if (preview.retold) {
     return preview.retold;
@@ -102,7 +108,7 @@ std::optional<language_model::Explanation> retold(const Preview& preview,
   const auto again = language_model::told_again(
       model, clock, asked_prompt(preview), *first,
       [&](std::string_view written) { return explanation_by(written, preview, *chosen); },
-      {.stop = stop});
+      {.stop = stop, .grammars = {grammar_of(preview, *chosen)}});
   return again.has_value() ? std::optional(again.value()) : first;
 }
 

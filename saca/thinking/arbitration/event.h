@@ -86,6 +86,11 @@ struct Preview {
 /// The scene part about it.
 [[nodiscard]] std::string prompt_of(const Preview& preview);
 
+/// What may be replied to it (language_model::reply_grammar): what is true of it as it was asked.
+/// @param choice  what the reply has to come to; nullopt: to any that is admissible
+[[nodiscard]] std::string grammar_of(const Preview& preview,
+                                     const std::optional<manoeuvre::PolicyId>& choice = {});
+
 /// Why its plan was chosen, or else what the model answered last (language_model::explanation); as
 /// it was retold, where it was. Takes milliseconds.
 /// @return  nullopt: there is neither, or it cannot be driven

@@ -327,9 +327,8 @@ bool ThinkingPlane::is_outdated(const Round& round, const std::vector<std::size_
   return true;
 }
 
-std::vector<std::string> ThinkingPlane::write_prompts(const std::vector<std::size_t>& which) {
-  std::vector<std::string> scenes;
-  scenes.reserve(which.size());
+language_model::Question ThinkingPlane::write_question(const std::vector<std::size_t>& which) {
+  language_model::Question put;
   for (const std::size_t i : which) {
     Preview& preview = previews_[i];
     preview.prompt = prompt_of(preview);
@@ -339,9 +338,10 @@ std::vector<std::string> ThinkingPlane::write_prompts(const std::vector<std::siz
     if (!tools_.asking.risks) {
       preview.prompt = language_model::without_risks(preview.prompt);
     }
-    scenes.push_back(preview.prompt);
+    put.scenes.push_back(preview.prompt);
+    put.grammars.push_back(grammar_of(preview));
   }
-  return scenes;
+  return put;
 }
 
 void ThinkingPlane::hear(const Question& question, const language_model::Progress& news) {
@@ -383,15 +383,15 @@ void ThinkingPlane::ask_again_later(const Question& question, double missed) {
 }
 
 void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
-  const std::vector<std::string> scenes = write_prompts(which);
+  const language_model::Question put = write_question(which);
   double left = std::numeric_limits<double>::infinity();
   for (const std::size_t i : which) {
     left = std::min(left, time_left(round, previews_[i].newest_scene));
   }
   const Question question{round, which, round.now()};
   tell(round, EventKind::ask,
-       fmt::format("the model is asked about {} forecast{}, {:.1f} s left", scenes.size(),
-                   scenes.size() == 1 ? "" : "s", left));
+       fmt::format("the model is asked about {} forecast{}, {:.1f} s left", which.size(),
+                   which.size() == 1 ? "" : "s", left));
   std::stop_source withdrawn;
   const std::stop_callback withdraw(round.stop, [&] { withdrawn.request_stop(); });
   bool outdated = false;
@@ -408,8 +408,9 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
       hear(question, news);
     }
   };
-  const auto replies = tools_.model->ask(scenes, round.clock_at(question.asked_at + left), progress,
-                                         {.stop = withdrawn.get_token()});
+  const auto replies =
+      tools_.model->ask(put.scenes, round.clock_at(question.asked_at + left), progress,
+                        {.stop = withdrawn.get_token(), .grammars = put.grammars});
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }

@@ -131,7 +131,7 @@ class ThinkingPlane {
   [[nodiscard]] bool is_outdated(const Round& round, const std::vector<std::size_t>& which) const;
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   /// Of these previews, as they are asked about.
-  [[nodiscard]] std::vector<std::string> write_prompts(const std::vector<std::size_t>& which);
+  [[nodiscard]] language_model::Question write_question(const std::vector<std::size_t>& which);
   void hear(const Question& question, const language_model::Progress& news);
   void take_replies(const Question& question, const std::vector<language_model::Reply>& replies);
   /// Those of it that have no plan.

@@ -180,9 +180,12 @@ Result<std::vector<Reply>> ChildModel::reply_to(
   }
   Exchange exchange{.id = ++last_id_, .progress = progress, .replies = {}};
   exchange.replies.resize(scenes.size());
-  const protocol::Request request =
-      protocol::Ask{exchange.id, scenes, budget, options.max_tokens.value_or(settings_.max_tokens),
-                    options.sampling_seed};
+  const protocol::Request request = protocol::Ask{exchange.id,
+                                                  scenes,
+                                                  budget,
+                                                  options.max_tokens.value_or(settings_.max_tokens),
+                                                  options.sampling_seed,
+                                                  options.grammars};
   auto error = process_.send(protocol::line(request), listen_until);
   if (!error) {
     error = collect(exchange, listen_until, options.stop);

@@ -14,6 +14,7 @@
 #include "saca/thinking/language_model/left_is_open_for_test.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/reply.h"
+#include "saca/thinking/language_model/statements.h"
 #include "saca/thinking/language_model/token_bound.h"
 #include "saca/thinking/language_model/truth.h"
 

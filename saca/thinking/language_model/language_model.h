@@ -55,9 +55,19 @@ struct AskOptions {
   /// >= 0. 0: the likeliest token at every place (greedy). Any other: tokens are drawn, likelier
   /// ones more often (`sampling_temperature`), for the same seed the same.
   int sampling_seed = 0;
+  /// What each reply may say, from its first character on (GBNF, llama.cpp's notation; its first
+  /// rule is `root`): one per scene, empty where anything may be said; or none at all. A model
+  /// that cannot be held to a grammar replies without.
+  std::vector<std::string> grammars = {};
 };
 
 constexpr std::size_t most_scenes = 3;  ///< of one question
+
+/// What is put to a model at once.
+struct Question {
+  std::vector<std::string> scenes;    ///< scene parts of the prompt
+  std::vector<std::string> grammars;  ///< as AskOptions has them
+};
 
 /// Something that reads prompts and chooses among the policies. May be slow, may fail.
 class LanguageModel {
@@ -82,6 +92,8 @@ class LanguageModel {
     expects(!scenes.empty() && scenes.size() <= most_scenes, "1 to 3 scenes");
     expects(!options.max_tokens || *options.max_tokens > 0, "max_tokens > 0");
     expects(options.sampling_seed >= 0, "sampling_seed >= 0");
+    expects(options.grammars.empty() || options.grammars.size() == scenes.size(),
+            "a grammar for each scene");
     return reply_to(scenes, deadline, progress, options);
   }
 

@@ -104,7 +104,8 @@ Json json_of(const Ask& ask) {
           {"scenes", ask.scenes},
           {"budget_s", ask.budget},
           {"max_tokens", ask.max_tokens},
-          {"sampling_seed", ask.sampling_seed}};
+          {"sampling_seed", ask.sampling_seed},
+          {"grammars", ask.grammars}};
 }
 Json json_of(const Cancel& cancel) {
   return {{"cmd", "cancel"}, {"id", cancel.id}};
@@ -158,19 +159,27 @@ Json json_of(const FailureMessage& failed) {
   return json;
 }
 
+std::vector<std::string> texts_at(const Json& json, const std::string& key) {
+  std::vector<std::string> texts;
+  for (const Json& text : list_at(json, key)) {
+    if (!text.is_string()) {
+      refuse(key, "texts", text);
+    }
+    texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
 Ask ask_from(const Json& json) {
   Ask ask{.id = count_at<int>(json, "id"),
-          .scenes = {},
+          .scenes = texts_at(json, "scenes"),
           .budget = number_at(json, "budget_s"),
           .max_tokens = count_at<int>(json, "max_tokens")};
   if (json.contains("sampling_seed")) {
     ask.sampling_seed = count_at<int>(json, "sampling_seed");
   }
-  for (const Json& scene : list_at(json, "scenes")) {
-    if (!scene.is_string()) {
-      refuse("scenes", "texts", scene);
-    }
-    ask.scenes.push_back(scene.get<std::string>());
+  if (json.contains("grammars")) {
+    ask.grammars = texts_at(json, "grammars");
   }
   return ask;
 }

@@ -26,9 +26,10 @@ struct Start {
 struct Ask {
   int id = 0;  ///< comes back with every event that belongs to it
   std::vector<std::string> scenes;
-  double budget = 0.0;    ///< from its arrival to the last answer [s], > 0
-  int max_tokens = 0;     ///< of reasoning per scene, >= 0
-  int sampling_seed = 0;  ///< as AskOptions has it; 0 where a line does not say
+  double budget = 0.0;                     ///< from its arrival to the last answer [s], > 0
+  int max_tokens = 0;                      ///< of reasoning per scene, >= 0
+  int sampling_seed = 0;                   ///< as AskOptions has it; 0 where a line does not say
+  std::vector<std::string> grammars = {};  ///< likewise; none where a line does not say
 };
 /// To the model: stop thinking about them. Nothing where that ask is over.
 struct Cancel {

@@ -15,7 +15,8 @@ TEST(Protocol, AskKeepsEverything) {
                 .scenes = {"one \"quoted\"\nline", "two"},
                 .budget = 4.125,
                 .max_tokens = 160,
-                .sampling_seed = 2};
+                .sampling_seed = 2,
+                .grammars = {"root ::= \"one\"\n", ""}};
   const auto read = request_from(line(Request(ask)));
   ASSERT_TRUE(read.has_value()) << read.error().message;
   const auto* back = std::get_if<Ask>(&read.value());
@@ -25,10 +26,15 @@ TEST(Protocol, AskKeepsEverything) {
   EXPECT_EQ(back->budget, 4.125);
   EXPECT_EQ(back->max_tokens, 160);
   EXPECT_EQ(back->sampling_seed, 2);
+  EXPECT_EQ(back->grammars, ask.grammars);
   const auto greedy =
       request_from(R"({"v":1,"cmd":"ask","id":7,"scenes":["one"],"budget_s":1.0,"max_tokens":9})");
   ASSERT_TRUE(greedy.has_value()) << greedy.error().message;
   EXPECT_EQ(std::get<Ask>(greedy.value()).sampling_seed, 0);
+  EXPECT_TRUE(std::get<Ask>(greedy.value()).grammars.empty());
+  EXPECT_FALSE(request_from(R"({"v":1,"cmd":"ask","id":7,"scenes":["one"],"budget_s":1.0,)"
+                            R"("max_tokens":9,"grammars":[1]})")
+                   .has_value());
 }
 
 TEST(Protocol, CancelNamesItsAsk) {

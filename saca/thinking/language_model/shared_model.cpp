@@ -57,8 +57,9 @@ Result<std::vector<Reply>> SharedModel::reply_to(
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const auto reply = [&] {
       const std::lock_guard lock(mutex_);
-      return known_or_asked({scenes[i], options.max_tokens, options.sampling_seed}, patience,
-                            either.get_token());
+      return known_or_asked({scenes[i], options.max_tokens, options.sampling_seed,
+                             options.grammars.empty() ? "" : options.grammars[i]},
+                            patience, either.get_token());
     }();
     if (!is_said(reply)) {
       return reply.error();
@@ -105,9 +106,11 @@ Result<Reply> SharedModel::asked(const Question& question, Clock::Time patience,
   Clock::Time begin{0};
   const auto ask = [&]() -> Result<Reply> {
     begin = clock_.now();
-    const auto replies = model_.ask(
-        {question.scene}, begin + patience, [](const Progress&) {},
-        {.stop = stop, .max_tokens = question.max_tokens, .sampling_seed = question.sampling_seed});
+    const auto replies = model_.ask({question.scene}, begin + patience, [](const Progress&) {},
+                                    {.stop = stop,
+                                     .max_tokens = question.max_tokens,
+                                     .sampling_seed = question.sampling_seed,
+                                     .grammars = {question.grammar}});
     return replies.has_value() ? Result(later_by(replies.value().front(), -begin))
                                : replies.error();
   };

@@ -42,6 +42,7 @@ class SharedModel final : public LanguageModel {
     std::string scene;
     std::optional<int> max_tokens;
     int sampling_seed = 0;
+    std::string grammar;
 
     auto operator<=>(const Question&) const = default;
   };

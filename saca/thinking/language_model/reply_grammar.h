@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "saca/onboard/manoeuvre/plan.h"
+#include "saca/thinking/memory/case.h"
+#include "saca/thinking/preview/situation.h"
+
+namespace saca::language_model {
+
+/// The replies about a forecast that are true (GBNF, as AskOptions::grammars wants it): all that
+/// `Statements` puts together, in the order in which models are taught to say it, up to the
+/// answer that the text asks for itself. So a model is free in whom it names, what it says of him,
+/// which remark it makes and what it comes to, as long as that is admissible; not in what is so.
+///
+/// @param scene_part  of this situation and case; or without risks
+/// @param nearest     as for the scene part
+/// @param choice      what the text has to come to; nullopt: to any policy that is admissible
+/// @return            empty where nothing is admissible, the choice is not, or the scene part does
+///                    not tell what comes of each manoeuvre: then nothing is known to be true
+[[nodiscard]] std::string reply_grammar(const preview::Situation& situation,
+                                        std::string_view scene_part,
+                                        const std::optional<memory::Case>& nearest,
+                                        const std::optional<manoeuvre::PolicyId>& choice = {});
+
+}  // namespace saca::language_model
