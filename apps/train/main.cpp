@@ -280,8 +280,9 @@ int main(int argc, char** argv) {
          "The most noise that a piece's speed is given, root mean square, for sites never seen")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
-  app.add_flag("!--without-chain", options.plan.with_chain,
-               "Train each frame for itself: the LSTM without the CRF, for comparison");
+  app.add_flag_callback(
+      "--without-chain", [&options] { options.plan.chain = saca::network_training::Chain::none; },
+      "Train each frame for itself: the LSTM without the CRF, for comparison");
   CLI11_PARSE(app, argc, argv);
   if (!options.calibrate.empty()) {
     return calibrate_models(options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -163,12 +164,17 @@ std::vector<Comer> add_cues(Stage& stage, const std::vector<DrawnCue>& cues,
   return all;
 }
 
-void take_away(scenario::Scenario& scenario, const std::vector<Comer>& all, bool also_who_come) {
-  for (auto one = all.rbegin(); one != all.rend(); ++one) {
-    if (also_who_come || !one->comes) {
-      scenario.actors.erase(scenario.actors.begin() + static_cast<std::ptrdiff_t>(one->actor));
-    }
+void take_all_away(scenario::Scenario& scenario, const std::vector<Comer>& all) {
+  for (auto one = all.rbegin(); one != all.rend(); ++one) {  // places of those before stay
+    scenario.actors.erase(scenario.actors.begin() + static_cast<std::ptrdiff_t>(one->actor));
   }
+}
+
+void take_absent_away(scenario::Scenario& scenario, const std::vector<Comer>& all) {
+  std::vector<Comer> absent;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(absent),
+               [](const Comer& one) { return !one.comes; });
+  take_all_away(scenario, absent);
 }
 
 void take_leaves_away(scenario::Scenario& scenario) {

@@ -32,12 +32,14 @@ struct Comer {
 /// here are assumptions.
 ///
 /// Whoever may come is put in, so that places are as likely where he comes as where he does not;
-/// see take_away. Call it after the conflict was made, before the surroundings.
+/// see take_absent_away. Call it after the conflict was made, before the surroundings.
 [[nodiscard]] std::vector<Comer> add_cues(Stage& stage, const std::vector<DrawnCue>& cues,
                                           const intent::CueLaw& law);
 
-/// Takes away who does not come, or all.
-void take_away(scenario::Scenario& scenario, const std::vector<Comer>& all, bool also_who_come);
+/// Takes away who may come, and does not.
+void take_absent_away(scenario::Scenario& scenario, const std::vector<Comer>& all);
+/// Takes away who may come, all of them.
+void take_all_away(scenario::Scenario& scenario, const std::vector<Comer>& all);
 
 /// Gives the grip back where it is slippery and nobody knows.
 void take_leaves_away(scenario::Scenario& scenario);

@@ -401,8 +401,8 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
     stage.add_surroundings();
     const scenario::Scenario& with_all = stage.scenario;
     FamilySample found{.scenario = with_all, .twin = with_all, .cues = cues};
-    take_away(found.scenario, comers, false);
-    take_away(found.twin, comers, true);
+    take_absent_away(found.scenario, comers);
+    take_all_away(found.twin, comers);
     take_leaves_away(found.twin);
     label(family, seed, number, car, found);
     if (harmless) {

@@ -51,7 +51,7 @@ torch::Tensor structural_mask() {
 
 }  // namespace
 
-LstmCrfImpl::LstmCrfImpl(double dropout, bool with_chain)
+LstmCrfImpl::LstmCrfImpl(double dropout, Chain chain)
     : input_(static_cast<std::int64_t>(num_features), width),
       lstm_(torch::nn::LSTMOptions(width, width).batch_first(true)),
       output_(2 * width, heads * classes),
@@ -63,12 +63,13 @@ LstmCrfImpl::LstmCrfImpl(double dropout, bool with_chain)
   register_module("lstm", lstm_);
   register_module("output", output_);
   register_module("dropout", dropout_);
-  start_ = register_parameter("start", torch::zeros({heads, classes}), with_chain);
+  const bool is_learnt = chain == Chain::learnt;
+  start_ = register_parameter("start", torch::zeros({heads, classes}), is_learnt);
   // Staying is likelier than anything else: at 10 Hz a class lasts for tens of frames.
-  const double staying = with_chain ? 3.0 : 0.0;
+  const double staying = is_learnt ? 3.0 : 0.0;
   transition_ = register_parameter("transition",
-                                   staying * torch::eye(classes).repeat({heads, 1, 1}), with_chain);
-  if (!with_chain) {
+                                   staying * torch::eye(classes).repeat({heads, 1, 1}), is_learnt);
+  if (!is_learnt) {
     mask_.zero_();
   }
 }

@@ -16,12 +16,16 @@ namespace saca::network_training {
 using ClassWeights = std::array<double, intent::num_classes>;
 constexpr ClassWeights all_alike{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
+/// How the frames of a stream are held together.
+enum class Chain : std::uint8_t {
+  learnt,  ///< by scores of starts and transitions
+  none     ///< not at all: those scores stay 0, each frame is judged by its emissions alone
+};
+
 /// The network of intent/network.h with its chains, in a form that can be trained.
 class LstmCrfImpl : public torch::nn::Module {
  public:
-  /// @param with_chain  false: without start and transition scores, which stay 0; each frame is
-  ///                    judged by its emissions alone
-  explicit LstmCrfImpl(double dropout, bool with_chain = true);
+  explicit LstmCrfImpl(double dropout, Chain chain = Chain::learnt);
 
   /// Mean emissions of the world and of its mirror image.   (B x T x H x K)
   torch::Tensor emissions(const torch::Tensor& features);

@@ -117,14 +117,14 @@ void hide_some(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) 
 /// What of a plan a schedule does not say.
 std::string words_of(const TrainingPlan& plan) {
   return fmt::format("{} {} {} {} {} {} {} {}", plan.longest, plan.dropout,
-                     fmt::join(plan.label_weights, ","), plan.with_chain, plan.lane_loss,
-                     plan.ahead_loss, plan.pedals_loss, plan.speed_noise);
+                     fmt::join(plan.label_weights, ","), plan.chain == Chain::learnt,
+                     plan.lane_loss, plan.ahead_loss, plan.pedals_loss, plan.speed_noise);
 }
 
 }  // namespace
 
-std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest, bool with_late,
-                             const Lessons& lessons) {
+std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest,
+                             PieceBegins begins, const Lessons& lessons) {
   expects(longest > 0, "longest > 0");
   const bool is_taught = !lessons.forecasts.empty();
   expects(!is_taught || lessons.forecasts.size() == sequences.size(), "lessons of each sequence");
@@ -145,7 +145,7 @@ std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest
       const std::size_t last = std::min(num, first + static_cast<std::size_t>(longest));
       add(i, first, last);
       const std::size_t late = first + (last - first) * (1 + number++ % 3) / 4;
-      if (with_late && late < last) {
+      if (begins == PieceBegins::also_late && late < last) {
         add(i, late, last);
       }
     }
@@ -159,7 +159,7 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
                         const std::function<bool(const Epoch&)>& on_epoch, const Lessons& lessons) {
   expects(!sequences.empty() && plan.epochs > 0 && plan.batch > 0, "something to train with");
   torch::manual_seed(plan.seed);
-  LstmCrf network(plan.dropout, plan.with_chain);
+  LstmCrf network(plan.dropout, plan.chain);
   const Task task{.network = network.ptr(),
                   .loss =
                       [&](Batch& batch, std::mt19937_64& random) {
@@ -178,9 +178,9 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
                           .batch = plan.batch,
                           .step = plan.step,
                           .decay = plan.decay};
-  if (const auto problem =
-          train(task, pieces_of(sequences, plan.longest, true, lessons),
-                pieces_of(held_out, plan.longest, false), schedule, state, on_epoch)) {
+  if (const auto problem = train(
+          task, pieces_of(sequences, plan.longest, PieceBegins::also_late, lessons),
+          pieces_of(held_out, plan.longest, PieceBegins::in_turn), schedule, state, on_epoch)) {
     return *problem;
   }
   return network;

@@ -26,7 +26,7 @@ struct TrainingPlan {
   double dropout = 0.3;
   /// Of labels in the loss: nine frames of ten are M, and what is rare is what matters.
   ClassWeights label_weights{1.0, 2.5, 2.5, 2.0, 2.5, 2.5};
-  bool with_chain = true;    ///< false: each frame is trained for itself
+  Chain chain = Chain::learnt;
   double lane_loss = 0.1;    ///< share of pieces whose lane is hidden: somebody off the map
   double ahead_loss = 0.1;   ///< likewise of what is ahead
   double pedals_loss = 0.5;  ///< likewise of what the vehicle shares
@@ -36,12 +36,17 @@ struct TrainingPlan {
   double speed_noise = 0.6;
 };
 
+/// Where pieces begin.
+enum class PieceBegins : std::uint8_t {
+  in_turn,   ///< where the last one ends
+  also_late  ///< and again after the first quarter, half or three quarters of each: somebody may
+             ///< come into view in the middle of anything
+};
+
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a
 /// horizon are those so many frames later; unknown where they are in doubt or after the end.
-/// @param with_late  also of each piece what comes after its first quarter, half or three quarters:
-///                   somebody may come into view in the middle of anything
 [[nodiscard]] std::vector<Piece> pieces_of(const std::vector<training::Sequence>& sequences,
-                                           int longest, bool with_late,
+                                           int longest, PieceBegins begins,
                                            const Lessons& lessons = {});
 
 /// Trains one network, or goes on where an earlier run of the same plan on the same data was

@@ -121,7 +121,7 @@ TEST(Pieces, LabelsAreThoseOfLater) {
     sequence.labels.push_back(static_cast<std::uint8_t>(t >= 15 ? 3 : 0));
     sequence.scored.push_back(t != 14);
   }
-  const auto pieces = pieces_of({sequence}, 20, false);
+  const auto pieces = pieces_of({sequence}, 20, PieceBegins::in_turn);
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].features.size(0), 20);
   EXPECT_EQ(pieces[1].features.size(0), 5);
@@ -133,7 +133,7 @@ TEST(Pieces, LabelsAreThoseOfLater) {
   EXPECT_TRUE(pieces[1].known[4][0].item<bool>());
   EXPECT_FALSE(pieces[1].known[0][1].item<bool>());  // frame 25 was never seen
 
-  const auto with_late = pieces_of({sequence}, 20, true);
+  const auto with_late = pieces_of({sequence}, 20, PieceBegins::also_late);
   ASSERT_EQ(with_late.size(), 4U);
   EXPECT_EQ(with_late[1].features.size(0), 15);
   EXPECT_EQ(with_late[1].labels[10][0].item<int>(), 3);  // frame 15
@@ -160,7 +160,7 @@ TEST(Pieces, AreTaughtLabelsAndByItsShareWhatATeacherForetells) {
   Lessons lessons{.share = 0.25,
                   .forecasts = {all_predicted_as(25, {0.0, 0.0, 0.0, 0.5, 0.5, 0.0}), {}}};
   lessons.forecasts[0].at[0][21] = {1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  const auto pieces = pieces_of({sequence, sequence}, 20, false, lessons);
+  const auto pieces = pieces_of({sequence, sequence}, 20, PieceBegins::in_turn, lessons);
   ASSERT_EQ(pieces.size(), 4U);
   const auto taught = [](const Piece& piece, std::int64_t t, std::int64_t h, std::int64_t k) {
     return piece.taught[t][h][k].item<float>();
@@ -172,9 +172,10 @@ TEST(Pieces, AreTaughtLabelsAndByItsShareWhatATeacherForetells) {
   EXPECT_FLOAT_EQ(taught(pieces[1], 1, 0, 3), 0.75F);
   EXPECT_FLOAT_EQ(taught(pieces[0], 10, 1, 3), 0.75F + 0.125F);  // its label in half a second
   EXPECT_FLOAT_EQ(taught(pieces[2], 15, 0, 3), 1.0F);            // nobody teaches
-  EXPECT_FALSE(pieces_of({sequence}, 20, false)[0].taught.defined());
+  EXPECT_FALSE(pieces_of({sequence}, 20, PieceBegins::in_turn)[0].taught.defined());
   lessons.forecasts.pop_back();
-  EXPECT_THROW((void)pieces_of({sequence, sequence}, 20, false, lessons), ContractViolation);
+  EXPECT_THROW((void)pieces_of({sequence, sequence}, 20, PieceBegins::in_turn, lessons),
+               ContractViolation);
 }
 
 TEST(Training, LearnsFromATeacherWhatNoLabelSays) {

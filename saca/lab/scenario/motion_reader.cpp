@@ -124,7 +124,7 @@ bool is_recorded(Table& table) {
   return recorded;
 }
 
-Recording read_recording(Table table, bool with_yaw_rate) {
+Recording read_recording(Table table) {
   const std::vector<double> times = table.numbers("t_s", time_range);
   if (times.size() < 2 || times.size() > max_samples) {
     table.reject("t_s", "want 2 to " + std::to_string(max_samples) + " samples, got " +
@@ -141,15 +141,19 @@ Recording read_recording(Table table, bool with_yaw_rate) {
   const std::vector<double> y = table.numbers("y_m", position_range, size);
   const std::vector<double> heading = table.numbers("heading_deg", heading_range, size);
   const std::vector<double> speed = table.numbers("speed_mps", speed_range, size);
-  const std::vector<double> yaw_rate = with_yaw_rate
-                                           ? table.numbers("yaw_rate_degps", yaw_rate_range, size)
-                                           : std::vector<double>(size, 0.0);
   Recording recording(size);
   for (std::size_t k = 0; k < size; ++k) {
-    recording[k] = {times[k],
-                    {{x[k], y[k]}, wrap_angle(from_degrees(heading[k]))},
-                    speed[k],
-                    from_degrees(yaw_rate[k])};
+    recording[k] = {times[k], {{x[k], y[k]}, wrap_angle(from_degrees(heading[k]))}, speed[k]};
+  }
+  return recording;
+}
+
+Recording read_ego_recording(Table table) {
+  Recording recording = read_recording(table);
+  const std::vector<double> yaw_rate =
+      table.numbers("yaw_rate_degps", yaw_rate_range, recording.size());
+  for (std::size_t k = 0; k < recording.size(); ++k) {
+    recording[k].yaw_rate = from_degrees(yaw_rate[k]);
   }
   return recording;
 }

@@ -40,7 +40,10 @@ Enum read_word(config::Table& table, std::string_view key,
 /// The one of two tables that says how a body moves.
 [[nodiscard]] bool is_recorded(config::Table& table);
 
-[[nodiscard]] Recording read_recording(config::Table table, bool with_yaw_rate);
+/// Of a road user: without yaw rates, which stay 0.
+[[nodiscard]] Recording read_recording(config::Table table);
+/// Of the ego: with what its gyro measured, `yaw_rate_degps`.
+[[nodiscard]] Recording read_ego_recording(config::Table table);
 
 /// @param kind  of the actor: who walks, and who drives behind others
 [[nodiscard]] Script read_script(config::Table table, world::ActorKind kind);

@@ -45,7 +45,7 @@ world::Road read_road(Table table) {
 std::variant<EgoStart, Recording> read_ego(Table table) {
   if (is_recorded(table)) {
     Table inner = table.table("recording");
-    Recording recording = read_recording(inner, true);
+    Recording recording = read_ego_recording(inner);
     if (recording.front().time != 0.0) {
       inner.reject("t_s", "want the ego's recording to begin at 0");
     }
@@ -110,7 +110,7 @@ ScenarioActor read_actor(Table table) {
     table.reject("existence", "want it of a ghost only: all others are there");
   }
   if (is_recorded(table)) {
-    actor.motion = read_recording(table.table("recording"), false);
+    actor.motion = read_recording(table.table("recording"));
     return actor;
   }
   Table start = table.table("start");

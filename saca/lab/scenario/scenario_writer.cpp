@@ -115,15 +115,17 @@ class Writer {
   std::string out_;
 };
 
-void write(Writer& out, const Recording& recording, bool with_yaw_rate) {
+void write(Writer& out, const Recording& recording) {
   out.column("t_s", recording, [](const Sample& s) { return decimal(s.time); });
   out.column("x_m", recording, [](const Sample& s) { return decimal(s.X_WA.p.x); });
   out.column("y_m", recording, [](const Sample& s) { return decimal(s.X_WA.p.y); });
   out.column("heading_deg", recording, [](const Sample& s) { return degrees(s.X_WA.yaw); });
   out.column("speed_mps", recording, [](const Sample& s) { return decimal(s.speed); });
-  if (with_yaw_rate) {
-    out.column("yaw_rate_degps", recording, [](const Sample& s) { return degrees(s.yaw_rate); });
-  }
+}
+
+void write_ego(Writer& out, const Recording& recording) {
+  write(out, recording);
+  out.column("yaw_rate_degps", recording, [](const Sample& s) { return degrees(s.yaw_rate); });
 }
 
 void write(Writer& out, const world::LanePose& pose) {
@@ -241,7 +243,7 @@ void write(Writer& out, const ScenarioActor& actor) {
   }
   if (const auto* recording = std::get_if<Recording>(&actor.motion)) {
     out.heading("[actors.recording]");
-    write(out, *recording, false);
+    write(out, *recording);
   } else {
     out.heading("[actors.start]");
     write(out, std::get<Script>(actor.motion));
@@ -279,7 +281,7 @@ std::string write_scenario(const Scenario& scenario) {
   write(out, scenario.road);
   if (const auto* recording = std::get_if<Recording>(&scenario.ego)) {
     out.heading("[ego.recording]");
-    write(out, *recording, true);
+    write_ego(out, *recording);
   } else {
     const auto& start = std::get<EgoStart>(scenario.ego);
     out.heading("[ego.start]");

@@ -11,24 +11,41 @@
 
 namespace saca::tune {
 
-Ending ride_to_end(manoeuvre::Ride ride, double horizon, bool with_path) {
-  constexpr int steps_per_pose = 50;
+namespace {
+
+/// @param look  is called before each step, with its number
+template <class Look>
+Ending ridden(manoeuvre::Ride ride, double horizon, const Look& look) {
   Ending ending;
   const auto steps = std::lround(horizon / vehicle::usual_step);
   int step = 0;
   for (; step < steps && !ride.ended(); ++step) {
-    if (with_path && step % steps_per_pose == 0) {
-      ending.path.push_back(ride.state().X_WB);
-    }
+    look(step, ride);
     ride.step();
   }
   ending.X_WB = ride.state().X_WB;
   ending.speed = norm(ride.state().v_B);
   ending.time = step * vehicle::usual_step;
   ending.ended = ride.ended();
-  if (with_path) {
-    ending.path.push_back(ending.X_WB);
-  }
+  return ending;
+}
+
+}  // namespace
+
+Ending ride_to_end(manoeuvre::Ride ride, double horizon) {
+  return ridden(std::move(ride), horizon, [](int, const manoeuvre::Ride&) {});
+}
+
+Ending ride_along_path(manoeuvre::Ride ride, double horizon) {
+  constexpr int steps_per_pose = 50;
+  std::vector<Pose> path;
+  Ending ending = ridden(std::move(ride), horizon, [&](int step, const manoeuvre::Ride& now) {
+    if (step % steps_per_pose == 0) {
+      path.push_back(now.state().X_WB);
+    }
+  });
+  path.push_back(ending.X_WB);
+  ending.path = std::move(path);
   return ending;
 }
 
@@ -44,8 +61,10 @@ std::vector<Ending> draw_endings(const manoeuvre::Car& car, const manoeuvre::Pla
   }
   std::vector<Ending> endings(perturbation.size());
   in_parallel(endings.size(), draws.threads, [&](std::size_t i) {
-    endings[i] = ride_to_end(manoeuvre::Ride(car, plan, scene, draws.grip, perturbation[i]),
-                             draws.horizon, i < static_cast<std::size_t>(draws.with_paths));
+    manoeuvre::Ride ride(car, plan, scene, draws.grip, perturbation[i]);
+    endings[i] = i < static_cast<std::size_t>(draws.with_paths)
+                     ? ride_along_path(std::move(ride), draws.horizon)
+                     : ride_to_end(std::move(ride), draws.horizon);
   });
   return endings;
 }

@@ -13,11 +13,13 @@ struct Ending {
   double speed = 0.0;      ///< over ground [m/s]
   double time = 0.0;       ///< since its start [s]
   bool ended = false;      ///< false: the horizon came first
-  std::vector<Pose> path;  ///< X_WB every 50 ms from the start; empty unless asked for
+  std::vector<Pose> path;  ///< X_WB every 50 ms from the start to the end; empty unless asked for
 };
 
-/// Rides to the end of the manoeuvre, or for `horizon` [s].
-[[nodiscard]] Ending ride_to_end(manoeuvre::Ride ride, double horizon, bool with_path = false);
+/// Rides to the end of the manoeuvre, or for `horizon` [s]. Without its path.
+[[nodiscard]] Ending ride_to_end(manoeuvre::Ride ride, double horizon);
+/// The same, with its path.
+[[nodiscard]] Ending ride_along_path(manoeuvre::Ride ride, double horizon);
 
 /// How often a manoeuvre is driven, and on what.
 struct EndingDraws {
