@@ -10,6 +10,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/report/cell_areas.h"
+#include "saca/lab/report/map_legend.h"
 #include "saca/lab/report/palette.h"
 #include "saca/lab/report/plot_axes.h"
 
@@ -18,9 +19,6 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-constexpr double map_border = 16.0;     // [px]
-constexpr double legend_width = 196.0;  // [px]
-constexpr double row_height = 19.0;     // of the legend [px]
 constexpr SvgSize map_size{560.0, 420.0};
 constexpr SvgSize strip_size{560.0, 300.0};
 constexpr double band_height = 26.0;  // of a strip's cells [px]
@@ -54,31 +52,9 @@ int margin_level(double margin) {
   return static_cast<int>(above) + 1;
 }
 
-/// Cells of one key look alike and belong to one area.
-int area_key(const MapCell& cell) {
-  return cell.verdict == MapVerdict::decided   ? static_cast<int>(manoeuvre::index(cell.best))
-         : cell.verdict == MapVerdict::no_risk ? 8
-                                               : 9;
-}
-
-bool refuses(const MapCell& cell, PolicyId policy) {
-  return cell.verdict != MapVerdict::unplayable && cell.refused.at(manoeuvre::index(policy));
-}
-
 bool refuses_any(const MapCell& cell, std::span<const PolicyId> policies) {
   return std::any_of(policies.begin(), policies.end(),
                      [&](PolicyId policy) { return refuses(cell, policy); });
-}
-
-/// Those that are refused in some cell.
-std::vector<PolicyId> refused_somewhere(std::span<const MapCell> cells) {
-  std::vector<PolicyId> found;
-  std::copy_if(manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(),
-               std::back_inserter(found), [&](PolicyId policy) {
-                 return std::any_of(cells.begin(), cells.end(),
-                                    [&](const MapCell& cell) { return refuses(cell, policy); });
-               });
-  return found;
 }
 
 /// What only these pictures have: red lines, sparse, so that what lies below is seen.
@@ -237,111 +213,6 @@ class CellGrid {
   std::vector<double> y_edges_;
 };
 
-// --- legend -----------------------------------------------------------------------------------
-
-/// Rows of swatches with words, downwards.
-class Legend {
- public:
-  explicit Legend(Vec2 at) : at_(at) {}
-
-  void heading(std::string_view words) {
-    body_ += svg_text("strong", at_ + Vec2{0.0, 4.0}, words);
-    at_.y += row_height;
-  }
-  void swatch(std::string_view looks, bool striped, std::string_view words,
-              std::string_view count = "") {
-    constexpr SvgSize size{18.0, 12.0};
-    const Vec2 corner = at_ - Vec2{0.0, 6.0};
-    body_ += svg_rect(looks, corner, size);
-    if (striped) {
-      body_ += svg_rect("right", corner, size);
-    }
-    body_ += svg_rect("frame", corner, size);
-    body_ += svg_text("", at_ + Vec2{25.0, 4.0}, words);
-    if (!count.empty()) {
-      body_ +=
-          svg_text("soft", {at_.x + legend_width - map_border, at_.y + 4.0}, count, Anchor::end);
-    }
-    at_.y += row_height;
-  }
-  void sign(const std::string& drawn, std::string_view words) {
-    body_ += drawn;
-    body_ += svg_text("", at_ + Vec2{25.0, 4.0}, words);
-    at_.y += row_height;
-  }
-  void gap() { at_.y += 0.5 * row_height; }
-
-  [[nodiscard]] Vec2 at() const { return at_; }
-  [[nodiscard]] const std::string& body() const { return body_; }
-
- private:
-  Vec2 at_;
-  std::string body_;
-};
-
-std::string nominal_mark(Vec2 at) {
-  std::string out;
-  for (const std::string_view looks : {"nominal-halo", "nominal"}) {
-    out += svg_circle(looks, at, 6.0);
-    out += svg_line(looks, at - Vec2{10.0, 0.0}, at + Vec2{10.0, 0.0});
-    out += svg_line(looks, at - Vec2{0.0, 10.0}, at + Vec2{0.0, 10.0});
-  }
-  return out;
-}
-
-std::string count_words(std::ptrdiff_t count, std::size_t all) {
-  return fmt::format("{}  ({:.1f} %)", count,
-                     100.0 * static_cast<double>(count) / static_cast<double>(all));
-}
-
-void add_verdicts(Legend& legend, std::span<const MapCell> cells) {
-  legend.heading("best policy, cells");
-  const auto count = [&](int key) {
-    return std::count_if(cells.begin(), cells.end(),
-                         [key](const MapCell& cell) { return area_key(cell) == key; });
-  };
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (const auto n = count(static_cast<int>(manoeuvre::index(policy))); n > 0) {
-      legend.swatch(policy_area(policy), manoeuvre::side(policy) < 0,
-                    fmt::format("{} {}", manoeuvre::index(policy), manoeuvre::name(policy)),
-                    count_words(n, cells.size()));
-    }
-  }
-  if (const auto n = count(8); n > 0) {
-    legend.swatch("no-risk", false, "no risk", count_words(n, cells.size()));
-  }
-  if (const auto n = count(9); n > 0) {
-    legend.swatch("unplayable", false, "no such scene", count_words(n, cells.size()));
-  }
-}
-
-void add_refusals(Legend& legend, std::span<const MapCell> cells) {
-  const std::vector<PolicyId> refused = refused_somewhere(cells);
-  if (refused.empty()) {
-    return;
-  }
-  legend.gap();
-  legend.heading("refused from there, cells");
-  for (const PolicyId policy : refused) {
-    const auto count = std::count_if(cells.begin(), cells.end(),
-                                     [&](const MapCell& cell) { return refuses(cell, policy); });
-    legend.swatch("refused", false,
-                  fmt::format("{} {}", manoeuvre::index(policy), manoeuvre::name(policy)),
-                  count_words(count, cells.size()));
-  }
-}
-
-void add_margins(Legend& legend) {
-  legend.heading("margin in harm over the next");
-  const std::array words{fmt::format("below {:g}", margin_steps[0]),
-                         fmt::format("{:g} to {:g}", margin_steps[0], margin_steps[1]),
-                         fmt::format("{:g} to {:g}", margin_steps[1], margin_steps[2]),
-                         fmt::format("{:g} or more", margin_steps[2])};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    legend.swatch(fmt::format("p7 m{}", i + 1), false, words.at(i));
-  }
-}
-
 // --- the whole --------------------------------------------------------------------------------
 
 double map_head_height(const std::vector<std::string>& lines) {
@@ -448,11 +319,11 @@ std::string map_svg(const PolicyMap& map) {
   const PlotArea area{
       {map_border + axis_room_left - 10.0, top}, map_size, plot_axis(map.x), plot_axis(map.y)};
   const CellGrid grid(map.cells, area, map.x, bounds(map.y));
-  Legend legend({legend_left(area), top + 8.0});
-  add_verdicts(legend, map.cells);
+  MapLegend legend({legend_left(area), top + 8.0});
+  legend.verdicts(map.cells);
   legend.gap();
-  add_margins(legend);
-  add_refusals(legend, map.cells);
+  legend.margins();
+  legend.refusals(map.cells);
   const std::vector<PolicyId> refused = refused_somewhere(map.cells);
   std::string body = (refused.empty() ? "" : std::string(refused_look)) + grid.areas() +
                      grid.refusals(refused) + grid.outlines() + grid.names();
@@ -483,9 +354,9 @@ std::string strip_svg(const PolicyStrip& strip) {
   std::string body = grid.areas() + grid.outlines() + grid.names() +
                      svg_rect("frame", band.at, band.size) + plot_grid(area);
   body += refusal_rows(strip, band, refused);
-  Legend legend({legend_left(area), top + 8.0});
-  add_verdicts(legend, strip.cells);
-  add_refusals(legend, strip.cells);
+  MapLegend legend({legend_left(area), top + 8.0});
+  legend.verdicts(strip.cells);
+  legend.refusals(strip.cells);
   legend.gap();
   legend.heading("expected harm");
   for (const HarmCurve& one : strip.curves) {
