@@ -1,3 +1,5 @@
+// Longer than 400 lines: one filter: how particles begin, move, are weighed and are drawn anew,
+// which is one law of motion seen from four sides.
 #include "saca/lab/eval/particle_filter.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Longer than 400 lines: the steps by which one event is rebuilt, each of which may refuse it, in
+// the order in which they are taken.
 #include "saca/lab/importers/hundred_car.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Longer than 400 lines: what a file is refused for stands beside the step of importing that finds
+// it, and the steps share what is known of the file so far.
 #include "saca/lab/importers/traffic_recording.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Longer than 400 lines: one look-up, from a plan and a scene to a path: several in each step of
+// the reflex plane, compiled together.
 #include "saca/onboard/atlas/atlas.h"
 
 #include <algorithm>

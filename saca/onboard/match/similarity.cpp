@@ -1,3 +1,5 @@
+// Longer than 400 lines: one measure and its parts, which are compared thousands of times for each
+// scene and are compiled together.
 #include "saca/onboard/match/similarity.h"
 
 #include <algorithm>
