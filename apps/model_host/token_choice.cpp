@@ -44,14 +44,13 @@ Result<TokenChoice> TokenChoice::make(const llama_vocab* vocab, const std::strin
 }
 
 llama_token TokenChoice::next(const float* logits) {
-  const llama_token token = chosen(logits);
-  if (draw_ != nullptr) {
-    llama_sampler_accept(draw_.get(), token);
+  const std::optional<llama_token> token = chosen(logits);
+  for (llama_sampler* const one : {draw_.get(), grammar_.get()}) {
+    if (token && one != nullptr) {
+      llama_sampler_accept(one, *token);
+    }
   }
-  if (grammar_ != nullptr && is_allowed(token)) {
-    llama_sampler_accept(grammar_.get(), token);
-  }
-  return token;
+  return token.value_or(llama_vocab_eos(vocab_));
 }
 
 bool TokenChoice::is_allowed(llama_token token) const {
@@ -61,7 +60,7 @@ bool TokenChoice::is_allowed(llama_token token) const {
   return std::isfinite(one.logit);
 }
 
-llama_token TokenChoice::chosen(const float* logits) {
+std::optional<llama_token> TokenChoice::chosen(const float* logits) {
   const int count = llama_vocab_n_tokens(vocab_);
   if (draw_ == nullptr) {
     const llama_token best = likeliest(logits, count);
@@ -81,7 +80,7 @@ llama_token TokenChoice::chosen(const float* logits) {
       std::max_element(all.data(), all.data() + all.size(),
                        [](const auto& a, const auto& b) { return a.logit < b.logit; });
   if (!std::isfinite(best->logit)) {
-    return llama_vocab_eos(vocab_);
+    return std::nullopt;
   }
   if (draw_ == nullptr) {
     return best->id;

@@ -3,6 +3,7 @@
 #include <llama.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "saca/base/core/result.h"
@@ -30,7 +31,8 @@ class TokenChoice {
   explicit TokenChoice(const llama_vocab* vocab) : vocab_(vocab) {}
 
   [[nodiscard]] bool is_allowed(llama_token token) const;
-  [[nodiscard]] llama_token chosen(const float* logits);
+  /// nullopt: nothing is allowed.
+  [[nodiscard]] std::optional<llama_token> chosen(const float* logits);
 
   const llama_vocab* vocab_;
   Sampler grammar_{nullptr, &llama_sampler_free};  ///< nullptr: none
