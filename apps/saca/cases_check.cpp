@@ -21,13 +21,13 @@ struct CasesCheckOptions {
 
 int check_sets(const CasesCheckOptions& options) {
   nlohmann::json out = nlohmann::json::array();
-  const eval::ChatLimits limits;
+  const cases::ChatLimits limits;
   for (const std::string& file : options.files) {
     const auto text = read_file(file, limits.most_bytes + 1);
     if (!text.has_value()) {
       return refused(text.error());
     }
-    const auto checked = eval::check_chat_set(text.value(), file, limits);
+    const auto checked = cases::check_chat_set(text.value(), file, limits);
     if (!checked.has_value()) {
       return refused(checked.error());
     }

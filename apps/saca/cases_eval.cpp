@@ -36,12 +36,12 @@ std::string command_of(const CasesEvalOptions& options) {
 }
 
 /// Tells the score, and what could not be asked.
-int tell_replies(const std::vector<eval::ExampleReply>& replies, std::size_t failed,
+int tell_replies(const std::vector<cases::ExampleReply>& replies, std::size_t failed,
                  const CasesEvalOptions& options, const std::string& model) {
   if (const auto problem = long_work::write_output(options.output, cases::replies_text(replies))) {
     return refused(*problem);
   }
-  const eval::ReplyScore score = eval::reply_score(replies, options.examples.seed);
+  const cases::ReplyScore score = cases::reply_score(replies, options.examples.seed);
   if (options.as_json) {
     nlohmann::json figures = cases::score_json(score, failed);
     figures["meta.model"] = model;
@@ -64,7 +64,7 @@ int eval_cases(const CasesEvalOptions& options) {
   auto [planes, source] = std::move(opened).value();
   const std::vector<std::string> records = cases::records_of(source.cases);
   auto chosen =
-      cases::cases_by_lot(std::move(source.cases), eval::example_set_from(options.set).value(),
+      cases::cases_by_lot(std::move(source.cases), cases::example_set_from(options.set).value(),
                           options.count, options.examples.file);
   if (!chosen.has_value()) {
     return refused(chosen.error());

@@ -32,7 +32,7 @@ int show_cases(const CasesShowOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const std::vector<eval::CrashCase>& all = file.value().cases;
+  const std::vector<cases::CrashCase>& all = file.value().cases;
   const auto shown = cases::shown_cases(all, options.shown);
   if (!shown.has_value()) {
     return refused(shown.error());

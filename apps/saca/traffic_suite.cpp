@@ -63,7 +63,7 @@ int run_traffic_suite(const suites::TrafficWatch& watch, bool as_json) {
     return was_interrupted;
   }
   const suites::WatchedTraffic& traffic = *watched.value();
-  if (eval::shadow_figures(traffic.rows, "").drives == 0) {
+  if (suites::shadow_figures(traffic.rows, "").drives == 0) {
     complain(fmt::format("{}: want drives that can be watched, got none of {}: {}",
                          watch.folders.front(), traffic.rows.size(),
                          traffic.rows.front().left_out));

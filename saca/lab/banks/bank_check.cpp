@@ -9,7 +9,7 @@
 
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
-#include "saca/lab/eval/case_check.h"
+#include "saca/lab/banks/case_check.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/thinking/memory/case_json.h"
 
@@ -77,8 +77,8 @@ Result<BankCheck> check(ReadBank& bank, const CaseTools& tools, const BankCheckO
     std::vector<std::optional<memory::Case>> checked(
         std::min(checked_at_once, cases.size() - first));
     in_parallel(checked.size(), options.threads, [&](std::size_t i) {
-      checked[i] = eval::checked(cases[first + i], tools.forecast, *tools.intent, tools.draws,
-                                 tools.made_with);
+      checked[i] = banks::checked(cases[first + i], tools.forecast, *tools.intent, tools.draws,
+                                  tools.made_with);
     });
     for (std::size_t i = 0; i < checked.size(); ++i) {
       const auto trust = keep_checked(bank.store, cases[first + i], checked[i]);

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/case_check.h"
+#include "saca/lab/banks/case_check.h"
 
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/onboard/manoeuvre/ego.h"
@@ -6,7 +6,7 @@
 #include "saca/thinking/intent/observer.h"
 #include "saca/thinking/memory/experience.h"
 
-namespace saca::eval {
+namespace saca::banks {
 namespace {
 
 intent::Beliefs beliefs_of(const memory::Case& one, const intent::Model& model,
@@ -53,4 +53,4 @@ std::optional<memory::Case> checked(const memory::Case& one, const preview::Fore
   return now;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::banks

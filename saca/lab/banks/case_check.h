@@ -8,7 +8,7 @@
 #include "saca/thinking/memory/case.h"
 #include "saca/thinking/preview/policy_facts.h"
 
-namespace saca::eval {
+namespace saca::banks {
 
 /// Works out anew what every policy is expected to harm in a case, with the car at hand: its body
 /// takes the place of the one in the case.
@@ -29,4 +29,4 @@ namespace saca::eval {
                                                   const intent::Model& intent, std::size_t draws,
                                                   const std::vector<memory::MadeWith>& made_with);
 
-}  // namespace saca::eval
+}  // namespace saca::banks

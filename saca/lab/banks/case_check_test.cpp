@@ -1,4 +1,4 @@
-#include "saca/lab/eval/case_check.h"
+#include "saca/lab/banks/case_check.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "saca/lab/eval/scenes_for_test.h"
 #include "saca/lab/eval/trigger_case.h"
 
-namespace saca::eval::case_check_test {
+namespace saca::banks::case_check_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -18,8 +18,9 @@ constexpr std::size_t draws = 16;
 class CaseCheckTest : public testing::Test {
  protected:
   void SetUp() override {
-    const scenario::Scenario scenario = only_left_helps();
-    one_ = case_at_trigger({&scenario, &car_, &harm_, &intent_, {}, {}}, tools_, draws, made_with_)
+    const scenario::Scenario scenario = eval::only_left_helps();
+    one_ = eval::case_at_trigger({&scenario, &car_, &harm_, &intent_, {}, {}}, tools_, draws,
+                                 made_with_)
                .value()
                .value();
     one_.trust = Trust::unchecked;
@@ -39,7 +40,7 @@ class CaseCheckTest : public testing::Test {
   }
 
   manoeuvre::Car car_ = prepare::default_car();
-  collision::HarmModel harm_ = shipped_harm();
+  collision::HarmModel harm_ = eval::shipped_harm();
   const intent::Model& intent_ = intent::shipped_model();
   preview::ForecastTools tools_{&car_, &harm_};
   std::vector<memory::MadeWith> made_with_ = encounter::made_with(tools_, intent_, "a car");
@@ -90,4 +91,4 @@ TEST_F(CaseCheckTest, LeavesWhatItLeavesOpenAsItWasForAnotherCarToo) {
 }
 
 }  // namespace
-}  // namespace saca::eval::case_check_test
+}  // namespace saca::banks::case_check_test

@@ -15,7 +15,6 @@
 namespace saca::cases {
 namespace {
 
-using eval::CrashCase;
 using manoeuvre::PolicyId;
 
 /// The instant from which the pictures go on.
@@ -36,7 +35,7 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const CaseTools& tools) {
     return shown;
   }
   const manoeuvre::Car& car = *tools.forecast.car;
-  auto again = eval::drawn_again(one, tools.car_name, manoeuvre::footprint(car));
+  auto again = drawn_again(one, tools.car_name, manoeuvre::footprint(car));
   if (!again.has_value()) {
     return again.error();
   }
@@ -125,7 +124,7 @@ report::PageTable facts_table(const CrashCase& one) {
 
 report::PageTable assumptions_table(const CrashCase& one) {
   const auto recorded =
-      std::count_if(one.ranges.begin(), one.ranges.end(), [](const eval::RecordRange& range) {
+      std::count_if(one.ranges.begin(), one.ranges.end(), [](const RecordRange& range) {
         return range.source.starts_with(crash_records::recorded_prefix);
       });
   report::PageTable table{
@@ -133,7 +132,7 @@ report::PageTable assumptions_table(const CrashCase& one) {
                              recorded, one.ranges.size()),
       .columns = {"from", "to", "source"}};
   table.rows.reserve(one.ranges.size());
-  for (const eval::RecordRange& range : one.ranges) {
+  for (const RecordRange& range : one.ranges) {
     table.rows.push_back({.name = range.key,
                           .cells = {fmt::format("{:.3g}", range.min),
                                     fmt::format("{:.3g}", range.max), range.source}});

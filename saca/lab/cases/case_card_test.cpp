@@ -12,7 +12,7 @@ using manoeuvre::PolicyId;
 using testing::HasSubstr;
 
 TEST(CaseCard, ShowsTheCrashAndTheBestPlan) {
-  const eval::CrashCase one = case_by_hand();
+  const CrashCase one = case_by_hand();
   const report::GalleryCard card = case_card(one, shipped().tools()).value();
   EXPECT_EQ(card.title, "FARS Arizona 2016, ST_CASE 40001: rear_end, highway");
   ASSERT_EQ(card.lines.size(), 2U);
@@ -25,7 +25,7 @@ TEST(CaseCard, ShowsTheCrashAndTheBestPlan) {
 }
 
 TEST(CaseCard, HasHarmsFactsAndAssumptions) {
-  const eval::CrashCase one = case_by_hand();
+  const CrashCase one = case_by_hand();
   const report::GalleryCard card = case_card(one, shipped().tools()).value();
   const report::PageTable& harms = card.tables.at(0);
   EXPECT_THAT(harms.lines.at(0), HasSubstr("over 4 draws"));
@@ -46,7 +46,7 @@ TEST(CaseCard, HasHarmsFactsAndAssumptions) {
 
 // Of a recording nothing can be drawn: it shows what was perceived.
 TEST(CaseCard, OfARecordingShowsWhatWasPerceived) {
-  eval::CrashCase one = case_by_hand();
+  CrashCase one = case_by_hand();
   one.record = {.study = "100-Car", .name = "hundred_car_8463", .number = 8463};
   one.family = "100car";
   one.place.reset();
@@ -61,7 +61,7 @@ TEST(CaseCard, OfARecordingShowsWhatWasPerceived) {
 }
 
 TEST(CaseCard, SaysWhatCannotBeDrawn) {
-  eval::CrashCase one = case_by_hand();
+  CrashCase one = case_by_hand();
   one.kind = "no_such";
   EXPECT_THAT(case_card(one, shipped().tools()).error().message, HasSubstr("no_such"));
 }

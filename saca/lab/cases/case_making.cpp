@@ -20,7 +20,7 @@ std::string case_row_line(const CaseRow& row) {
   return nlohmann::json{{"family", row.family},
                         {"end", name(row.end)},
                         {"problem", row.problem},
-                        {"case", row.made ? eval::to_json(*row.made) : nlohmann::json(nullptr)}}
+                        {"case", row.made ? to_json(*row.made) : nlohmann::json(nullptr)}}
       .dump();
 }
 
@@ -32,10 +32,10 @@ Result<CaseRow> case_row_from(const std::string& line) {
   std::optional<Error> problem;
   formats::JsonReader reader(parsed.value(), "", problem, "line");
   CaseRow row{.family = reader.text("family")};
-  row.end = reader.word("end", eval::crash_end_from, "how a search ended");
+  row.end = reader.word("end", crash_end_from, "how a search ended");
   row.problem = reader.text("problem");
   if (reader.has_value("case")) {
-    auto made = eval::crash_case_from_json(reader.any("case"));
+    auto made = crash_case_from_json(reader.any("case"));
     if (!made.has_value()) {
       return made.error();
     }
@@ -78,8 +78,7 @@ std::uint64_t CaseMaking::digest() const {
   return hash.value();
 }
 
-void CaseMaking::judge(CaseRow& row, eval::CrashCase made,
-                       const scenario::Scenario& scenario) const {
+void CaseMaking::judge(CaseRow& row, CrashCase made, const scenario::Scenario& scenario) const {
   const scenario::Scenario world = case_world(scenario, options_.seed);
   const encounter::Stage stage = case_stage(world, tools_, options_.seed, made.record.name);
   eval::JudgingOptions judging = options_.judging;
@@ -98,32 +97,31 @@ CaseRow CaseMaking::row_of(const CrashProspect& prospect) const {
   const crash_records::FarsCrash& crash = sources_.release.crashes[prospect.crash];
   const crash_records::FarsVehicle& ego = crash.vehicles[prospect.roles.ego];
   CaseRow row{.family = std::string(name(prospect.roles.family))};
-  eval::CrashFound found =
-      eval::find_crash(prospect.family, prospect.roles.struck, tools_.car_name,
-                       *tools_.forecast.car, *tools_.forecast.harm,
-                       {.seed = options_.seed, .most = static_cast<std::uint64_t>(options_.tries)});
+  CrashFound found =
+      find_crash(prospect.family, prospect.roles.struck, tools_.car_name, *tools_.forecast.car,
+                 *tools_.forecast.harm,
+                 {.seed = options_.seed, .most = static_cast<std::uint64_t>(options_.tries)});
   row.end = found.end;
-  if (found.end != eval::CrashEnd::happens) {
+  if (found.end != CrashEnd::happens) {
     return row;
   }
   const auto recorded_face = crash_records::face_of_impact(ego.impact);
-  eval::CrashCase made{
-      .record = {.study = "FARS",
-                 .name = prospect.family.name,
-                 .state = sources_.codes.meaning("STATE", crash.id.state()),
-                 .year = crash.id.year,
-                 .number = crash.id.number},
-      .family = row.family,
-      .place = std::string(name(prospect.roles.place)),
-      .facts = crash_records::facts_of(crash, prospect.roles, sources_.codes),
-      .kind = std::string(name(prospect.family.kind)),
-      .seed = options_.seed,
-      .sample = found.sample,
-      .without = found.as_written.contact,
-      .as_recorded = true,
-      .impact_agrees = recorded_face
-                           ? std::optional(*recorded_face == found.as_written.contact->ego_face)
-                           : std::nullopt};
+  CrashCase made{.record = {.study = "FARS",
+                            .name = prospect.family.name,
+                            .state = sources_.codes.meaning("STATE", crash.id.state()),
+                            .year = crash.id.year,
+                            .number = crash.id.number},
+                 .family = row.family,
+                 .place = std::string(name(prospect.roles.place)),
+                 .facts = crash_records::facts_of(crash, prospect.roles, sources_.codes),
+                 .kind = std::string(name(prospect.family.kind)),
+                 .seed = options_.seed,
+                 .sample = found.sample,
+                 .without = found.as_written.contact,
+                 .as_recorded = true,
+                 .impact_agrees = recorded_face ? std::optional(*recorded_face ==
+                                                                found.as_written.contact->ego_face)
+                                                : std::nullopt};
   made.ranges.reserve(prospect.family.ranges.size());
   for (const auto& [key, range] : prospect.family.ranges) {
     made.ranges.push_back({key, range.min, range.max, range.source});
@@ -138,16 +136,16 @@ CaseRow CaseMaking::row_of(const importers::HundredCarOutcome& event) const {
   const auto as_written =
       eval::trigger_as_written(scenario, *tools_.forecast.car, *tools_.forecast.harm);
   CaseRow row{.family = "100car",
-              .end = !as_written           ? eval::CrashEnd::never_triggers
-                     : as_written->contact ? eval::CrashEnd::happens
-                                           : eval::CrashEnd::does_not_happen};
-  eval::CrashCase made{.record = {.study = "100-Car", .name = scenario.name, .number = event.event},
-                       .family = row.family,
-                       .facts = {{"crash", "severity", std::nullopt, event.severity},
-                                 {"ego", "driver", std::nullopt, scenario.driver},
-                                 {"crash", "notes", std::nullopt, scenario.notes}},
-                       .without = as_written ? as_written->contact : std::nullopt,
-                       .as_recorded = as_written && as_written->contact.has_value()};
+              .end = !as_written           ? CrashEnd::never_triggers
+                     : as_written->contact ? CrashEnd::happens
+                                           : CrashEnd::does_not_happen};
+  CrashCase made{.record = {.study = "100-Car", .name = scenario.name, .number = event.event},
+                 .family = row.family,
+                 .facts = {{"crash", "severity", std::nullopt, event.severity},
+                           {"ego", "driver", std::nullopt, scenario.driver},
+                           {"crash", "notes", std::nullopt, scenario.notes}},
+                 .without = as_written ? as_written->contact : std::nullopt,
+                 .as_recorded = as_written && as_written->contact.has_value()};
   judge(row, std::move(made), scenario);
   return row;
 }

@@ -9,8 +9,8 @@
 #include "saca/base/core/result.h"
 #include "saca/lab/cases/case_sources.h"
 #include "saca/lab/cases/case_tools.h"
-#include "saca/lab/eval/crash_case.h"
-#include "saca/lab/eval/crash_search.h"
+#include "saca/lab/cases/crash_case.h"
+#include "saca/lab/cases/crash_search.h"
 #include "saca/lab/long_work/progress.h"
 #include "saca/lab/scenario/scenario.h"
 #include "saca/thinking/memory/case.h"
@@ -20,9 +20,9 @@ namespace saca::cases {
 /// What became of one record; as a line of the journal.
 struct CaseRow {
   std::string family;
-  eval::CrashEnd end = eval::CrashEnd::cannot_be_drawn;
-  std::string problem;                  ///< why it could not be played; else empty
-  std::optional<eval::CrashCase> made;  ///< none where it does not happen, or never triggers
+  CrashEnd end = CrashEnd::cannot_be_drawn;
+  std::string problem;            ///< why it could not be played; else empty
+  std::optional<CrashCase> made;  ///< none where it does not happen, or never triggers
 };
 [[nodiscard]] std::string case_row_line(const CaseRow& row);
 [[nodiscard]] Result<CaseRow> case_row_from(const std::string& line);
@@ -49,7 +49,7 @@ class CaseMaking {
  private:
   [[nodiscard]] CaseRow row_of(const CrashProspect& prospect) const;
   [[nodiscard]] CaseRow row_of(const importers::HundredCarOutcome& event) const;
-  void judge(CaseRow& row, eval::CrashCase made, const scenario::Scenario& scenario) const;
+  void judge(CaseRow& row, CrashCase made, const scenario::Scenario& scenario) const;
 
   const CaseMakingOptions& options_;
   const CaseSources& sources_;

@@ -16,14 +16,14 @@ using testing::HasSubstr;
 
 TEST(CaseRowTest, ComesBackFromItsLine) {
   const CaseRow nothing{
-      .family = "crossing", .end = eval::CrashEnd::never_triggers, .problem = "no such car"};
+      .family = "crossing", .end = CrashEnd::never_triggers, .problem = "no such car"};
   const CaseRow back = case_row_from(case_row_line(nothing)).value();
   EXPECT_EQ(back.family, "crossing");
-  EXPECT_EQ(back.end, eval::CrashEnd::never_triggers);
+  EXPECT_EQ(back.end, CrashEnd::never_triggers);
   EXPECT_EQ(back.problem, "no such car");
   EXPECT_FALSE(back.made.has_value());
 
-  const CaseRow made{.family = "rear_end", .end = eval::CrashEnd::happens, .made = case_by_hand()};
+  const CaseRow made{.family = "rear_end", .end = CrashEnd::happens, .made = case_by_hand()};
   EXPECT_EQ(case_row_line(case_row_from(case_row_line(made)).value()), case_row_line(made));
 }
 
@@ -66,10 +66,10 @@ TEST(CaseMakingTest, MakesOfARecordWhatWasRecorded) {
   ASSERT_EQ(making.size(), 1U);
   const CaseRow row = making.row(0);
   EXPECT_EQ(row.family, "rear_end");
-  EXPECT_EQ(row.end, eval::CrashEnd::happens);
+  EXPECT_EQ(row.end, CrashEnd::happens);
   EXPECT_EQ(row.problem, "");
   ASSERT_TRUE(row.made.has_value());
-  const eval::CrashCase& made = *row.made;
+  const CrashCase& made = *row.made;
   EXPECT_EQ(made.record.name, "fars_2016_40001");
   EXPECT_EQ(made.record.number, 40001);
   EXPECT_EQ(made.kind, "slower_lead");
@@ -111,7 +111,7 @@ TEST(CaseMakingTest, MakesOfAnEventWhatWouldHaveHappened) {
   const CaseMaking making(quick, sources, shipped().tools());
   const CaseRow row = making.row(0);
   EXPECT_EQ(row.family, "100car");
-  EXPECT_EQ(row.end, eval::CrashEnd::happens);
+  EXPECT_EQ(row.end, CrashEnd::happens);
   ASSERT_TRUE(row.made.has_value()) << row.problem;
   EXPECT_EQ(row.made->record.study, "100-Car");
   EXPECT_EQ(row.made->record.number, 8463);

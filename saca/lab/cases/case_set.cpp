@@ -22,18 +22,18 @@ CaseSet case_set(std::vector<CaseRow> rows) {
   return all;
 }
 
-std::vector<memory::Case> memory_cases(const std::vector<eval::CrashCase>& cases) {
+std::vector<memory::Case> memory_cases(const std::vector<CrashCase>& cases) {
   std::vector<memory::Case> plain;
   plain.reserve(cases.size());
-  for (const eval::CrashCase& one : cases) {
+  for (const CrashCase& one : cases) {
     plain.push_back(one.judged.one);
   }
   return plain;
 }
 
-std::vector<memory::Case> driver_cases(const std::vector<eval::CrashCase>& cases) {
+std::vector<memory::Case> driver_cases(const std::vector<CrashCase>& cases) {
   std::vector<memory::Case> driven;
-  for (const eval::CrashCase& one : cases) {
+  for (const CrashCase& one : cases) {
     if (const auto& driver = one.judged.driver) {
       driven.push_back(one.judged.one);
       driven.back().best = *driver;
@@ -45,9 +45,8 @@ std::vector<memory::Case> driver_cases(const std::vector<eval::CrashCase>& cases
   return driven;
 }
 
-std::optional<Error> write_cases(const CaseOutputs& outputs,
-                                 const std::vector<eval::CrashCase>& cases) {
-  if (auto problem = long_work::write_output(outputs.cases, eval::crash_cases_text(cases))) {
+std::optional<Error> write_cases(const CaseOutputs& outputs, const std::vector<CrashCase>& cases) {
+  if (auto problem = long_work::write_output(outputs.cases, crash_cases_text(cases))) {
     return problem;
   }
   if (!outputs.memory.empty()) {

@@ -29,13 +29,13 @@ TEST(CaseSetTest, NumbersCasesAndKeepsProblems) {
 }
 
 TEST(CaseSetTest, DriversCasesSayWhatTheDriverDid) {
-  eval::CrashCase nobody = case_by_hand("a");
-  eval::CrashCase known = case_by_hand("b");
+  CrashCase nobody = case_by_hand("a");
+  CrashCase known = case_by_hand("b");
   known.judged.driver = PolicyId::es_b_right;
   known.judged.one.best_harm = 0.125;
   known.judged.one.happened.emplace();
   known.judged.one.happened->at(index(PolicyId::es_b_right)) = 0.5;
-  eval::CrashCase not_driven = known;  // by no plan of his policy
+  CrashCase not_driven = known;  // by no plan of his policy
   not_driven.judged.one.happened->at(index(PolicyId::es_b_right)).reset();
   const std::vector<memory::Case> drivers = driver_cases({nobody, known, not_driven});
   ASSERT_EQ(drivers.size(), 2U);
@@ -51,10 +51,10 @@ TEST(CaseSetTest, DriversCasesSayWhatTheDriverDid) {
 TEST(CaseSetTest, IsWrittenWhereItIsAskedFor) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "case_set";
   std::filesystem::remove_all(folder);
-  const std::vector<eval::CrashCase> cases{case_by_hand()};
+  const std::vector<CrashCase> cases{case_by_hand()};
   const auto place = [&](const char* file) { return (folder / file).string(); };
   ASSERT_FALSE(write_cases({.cases = place("a.jsonl")}, cases).has_value());
-  EXPECT_EQ(read_file(folder / "a.jsonl").value(), eval::crash_cases_text(cases));
+  EXPECT_EQ(read_file(folder / "a.jsonl").value(), crash_cases_text(cases));
   ASSERT_FALSE(write_cases({.cases = place("a.jsonl"),
                             .memory = place("memory.jsonl"),
                             .drivers = place("drivers.jsonl")},

@@ -6,7 +6,6 @@
 
 namespace saca::cases {
 
-using eval::CrashEnd;
 using nlohmann::json;
 
 namespace {
@@ -65,7 +64,7 @@ json tally_json(const CaseSources& sources, const FamilyTallies& tallies, const 
     out[key + "share"] = share_of(tally, sources);
   }
   std::map<std::string_view, int> best;
-  for (const eval::CrashCase& one : set.cases) {
+  for (const CrashCase& one : set.cases) {
     ++best[name(one.judged.one.best)];
   }
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {

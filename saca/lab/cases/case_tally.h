@@ -16,8 +16,8 @@ namespace saca::cases {
 struct FamilyTally {
   CrashCount count;
   int worked_on = 0;
-  std::array<int, eval::num_crash_ends> ends{};  ///< by CrashEnd
-  int at_once = 0;                               ///< the crash happens in the first sample
+  std::array<int, num_crash_ends> ends{};  ///< by CrashEnd
+  int at_once = 0;                         ///< the crash happens in the first sample
   int cases = 0;
   int impact_known = 0;
   int impact_agrees = 0;

@@ -20,12 +20,11 @@ class CaseTally : public testing::Test {
     CrashCount& behind = sources_.counts.at(static_cast<std::size_t>(CrashFamily::rear_end));
     behind = {.crashes = 3, .ego_is_no_car = 1};
     sources_.counts.at(static_cast<std::size_t>(CrashFamily::crossing)).crashes = 1;
-    eval::CrashCase at_once = case_by_hand("a");
+    CrashCase at_once = case_by_hand("a");
     at_once.sample = 0;
-    rows_ = {{.family = "rear_end", .end = eval::CrashEnd::happens, .made = at_once},
-             {.family = "rear_end",
-              .end = eval::CrashEnd::does_not_happen,
-              .problem = "b: cannot be played"}};
+    rows_ = {
+        {.family = "rear_end", .end = CrashEnd::happens, .made = at_once},
+        {.family = "rear_end", .end = CrashEnd::does_not_happen, .problem = "b: cannot be played"}};
     tallies_ = family_tallies(sources_, rows_);
     set_ = case_set(rows_);
   }
@@ -44,7 +43,7 @@ TEST_F(CaseTally, CountsWhatBecameOfEachFamily) {
   EXPECT_EQ(tallies_.size(), crash_records::num_crash_families) << "those without a crash, too";
   const FamilyTally& behind = tallies_.at("rear_end");
   EXPECT_EQ(behind.worked_on, 2);
-  EXPECT_EQ(behind.ends.at(static_cast<std::size_t>(eval::CrashEnd::happens)), 1);
+  EXPECT_EQ(behind.ends.at(static_cast<std::size_t>(CrashEnd::happens)), 1);
   EXPECT_EQ(behind.at_once, 1);
   EXPECT_EQ(behind.cases, 1);
   EXPECT_EQ(behind.impact_known, 1);

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "saca/lab/cases/case_tools.h"
-#include "saca/lab/eval/crash_case.h"
-#include "saca/lab/eval/crash_search.h"
+#include "saca/lab/cases/crash_case.h"
+#include "saca/lab/cases/crash_search.h"
 #include "saca/lab/families/family.h"
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
@@ -34,14 +34,13 @@ inline const ShippedTools& shipped() {
 }
 
 /// A crash into somebody slower, drawn from the shipped family; braking is its best.
-inline eval::CrashCase case_by_hand(const std::string& name = "fars_2016_40001") {
+inline CrashCase case_by_hand(const std::string& name = "fars_2016_40001") {
   static const families::Family family = [] {
     return families::load_family("scenarios/families", "slower_lead").value();
   }();
-  static const eval::CrashFound found =
-      eval::find_crash(family, std::nullopt, "compact_rwd_ev", shipped().car, shipped().harm,
-                       {.seed = 3, .most = 20});
-  eval::CrashCase one{
+  static const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", shipped().car,
+                                             shipped().harm, {.seed = 3, .most = 20});
+  CrashCase one{
       .record = {.study = "FARS", .name = name, .state = "Arizona", .year = 2016, .number = 40001},
       .family = "rear_end",
       .place = "highway",

@@ -13,7 +13,6 @@
 
 namespace saca::cases {
 
-using eval::CrashCase;
 using manoeuvre::PolicyId;
 
 Result<std::vector<CrashCase>> shown_cases(const std::vector<CrashCase>& cases,

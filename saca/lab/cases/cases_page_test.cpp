@@ -10,8 +10,8 @@ namespace {
 using testing::ElementsAre;
 
 /// Ten from behind, and one of those who cross.
-std::vector<eval::CrashCase> eleven_cases() {
-  std::vector<eval::CrashCase> cases;
+std::vector<CrashCase> eleven_cases() {
+  std::vector<CrashCase> cases;
   for (int i = 0; i < 10; ++i) {
     cases.push_back(case_by_hand("fars_" + std::to_string(i)));
   }
@@ -57,7 +57,7 @@ TEST(CasesPage, CountsFamiliesAndTheirBest) {
 
 TEST(CasesPage, HasACardOfEachAndSaysHowItIsMadeAgain) {
   const ShownOptions options{.file = "a.jsonl", .record = "fars_3", .count = 5, .seed = 2};
-  const std::vector<eval::CrashCase> all = eleven_cases();
+  const std::vector<CrashCase> all = eleven_cases();
   const auto shown = shown_cases(all, options).value();
   const auto page = cases_page(shown, all, options, shipped().tools());
   ASSERT_TRUE(page.has_value()) << page.error().message;
@@ -65,7 +65,7 @@ TEST(CasesPage, HasACardOfEachAndSaysHowItIsMadeAgain) {
   EXPECT_THAT(page.value().lines.at(0), testing::StartsWith("1 of 11 cases, drawn with seed 2."));
   EXPECT_THAT(page.value().footnotes,
               ElementsAre("saca cases show a.jsonl --count 5 --seed 2 --record fars_3"));
-  std::vector<eval::CrashCase> spoilt = shown;
+  std::vector<CrashCase> spoilt = shown;
   spoilt[0].kind = "no_such";
   EXPECT_FALSE(cases_page(spoilt, all, options, shipped().tools()).has_value());
 }

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/chat_set.h"
+#include "saca/lab/cases/chat_set.h"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 #include "saca/base/formats/json_reader.h"
 #include "saca/thinking/language_model/token_bound.h"
 
-namespace saca::eval {
+namespace saca::cases {
 namespace {
 
 using formats::JsonReader;
@@ -104,4 +104,4 @@ Result<ChatSetFigures> check_chat_set(std::string_view text, const std::string& 
   return figures;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -6,7 +6,7 @@
 
 #include "saca/base/core/result.h"
 
-namespace saca::eval {
+namespace saca::cases {
 
 /// What a service for the fine-tuning of chat models takes. The numbers are those that OpenAI's
 /// guide to supervised fine-tuning gave in 2026-04, of the file and of gpt-4o-mini.
@@ -35,4 +35,4 @@ struct ChatSetFigures {
                                                     const std::string& source,
                                                     const ChatLimits& limits = {});
 
-}  // namespace saca::eval
+}  // namespace saca::cases

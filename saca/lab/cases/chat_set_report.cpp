@@ -4,7 +4,7 @@
 
 namespace saca::cases {
 
-nlohmann::json chat_set_json(const std::string& file, const eval::ChatSetFigures& figures) {
+nlohmann::json chat_set_json(const std::string& file, const ChatSetFigures& figures) {
   return {{"file", file},
           {"examples", figures.examples},
           {"tokens_at_most", figures.tokens},
@@ -12,7 +12,7 @@ nlohmann::json chat_set_json(const std::string& file, const eval::ChatSetFigures
           {"longest_tokens_at_most", figures.longest}};
 }
 
-std::string chat_set_text(const std::string& file, const eval::ChatSetFigures& figures) {
+std::string chat_set_text(const std::string& file, const ChatSetFigures& figures) {
   return fmt::format(
       "{}: {} examples, up to {} tokens, of them up to {} to be learnt, up to {} in one\n", file,
       figures.examples, figures.tokens, figures.learnt_tokens, figures.longest);

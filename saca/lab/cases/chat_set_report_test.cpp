@@ -6,7 +6,7 @@ namespace saca::cases::chat_set_report_test {
 namespace {
 
 TEST(ChatSetReport, TellsOfOneSet) {
-  const eval::ChatSetFigures figures{
+  const ChatSetFigures figures{
       .examples = 12, .tokens = 3400, .learnt_tokens = 560, .longest = 300};
   EXPECT_EQ(chat_set_json("a.jsonl", figures), (nlohmann::json{{"file", "a.jsonl"},
                                                                {"examples", 12},

@@ -1,13 +1,13 @@
-#include "saca/lab/eval/chat_set.h"
+#include "saca/lab/cases/chat_set.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
-#include "saca/lab/eval/reply_example.h"
+#include "saca/lab/cases/reply_example.h"
 #include "saca/thinking/language_model/token_bound.h"
 
-namespace saca::eval::chat_set_test {
+namespace saca::cases::chat_set_test {
 namespace {
 
 using nlohmann::json;
@@ -85,4 +85,4 @@ TEST(ChatSet, LimitsAreOfExamplesBytesAndTokens) {
 }
 
 }  // namespace
-}  // namespace saca::eval::chat_set_test
+}  // namespace saca::cases::chat_set_test

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/crash_case.h"
+#include "saca/lab/cases/crash_case.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 #include "saca/lab/families/family.h"
 #include "saca/thinking/memory/case_json.h"
 
-namespace saca::eval {
+namespace saca::cases {
 namespace {
 
 using nlohmann::json;
@@ -39,7 +39,7 @@ std::optional<collision::Face> face_named(std::string_view word) {
   return std::nullopt;
 }
 
-json without_json(const std::optional<WithoutAvoidance>& without) {
+json without_json(const std::optional<eval::WithoutAvoidance>& without) {
   if (!without) {
     return nullptr;
   }
@@ -51,14 +51,14 @@ json without_json(const std::optional<WithoutAvoidance>& without) {
           {"after_s", without->after}};
 }
 
-WithoutAvoidance read_without(Reader reader) {
+eval::WithoutAvoidance read_without(Reader reader) {
   constexpr std::string_view faces = "front, left, right or rear";
-  WithoutAvoidance without{.met = reader.text("met"),
-                           .first_actor = reader.flag("first_actor"),
-                           .ego_face = reader.word("ego_face", face_named, faces),
-                           .other_face = reader.word("other_face", face_named, faces),
-                           .relative_speed = reader.number("relative_speed_mps"),
-                           .after = reader.number("after_s")};
+  eval::WithoutAvoidance without{.met = reader.text("met"),
+                                 .first_actor = reader.flag("first_actor"),
+                                 .ego_face = reader.word("ego_face", face_named, faces),
+                                 .other_face = reader.word("other_face", face_named, faces),
+                                 .relative_speed = reader.number("relative_speed_mps"),
+                                 .after = reader.number("after_s")};
   reader.refuse_others();
   return without;
 }
@@ -99,9 +99,9 @@ RecordId read_record(Reader reader) {
   return record;
 }
 
-json judged_json(const JudgedEncounter& judged, json& document) {
+json judged_json(const eval::JudgedEncounter& judged, json& document) {
   json plans = json::array();
-  for (const VerdictPlan& plan : judged.plans) {
+  for (const eval::VerdictPlan& plan : judged.plans) {
     json entry = encounter::plan_json(plan.plan);
     entry["harm"] = plan.harm;
     entry["contact"] = plan.contact;
@@ -131,7 +131,7 @@ json judged_json(const JudgedEncounter& judged, json& document) {
   return document;
 }
 
-void read_plans(Reader& reader, JudgedEncounter& judged) {
+void read_plans(Reader& reader, eval::JudgedEncounter& judged) {
   const json* const plans = reader.list("plans", most_entries);
   for (std::size_t i = 0; plans != nullptr && i < plans->size(); ++i) {
     Reader entry = reader.element("plans", *plans, i);
@@ -149,7 +149,7 @@ void read_plans(Reader& reader, JudgedEncounter& judged) {
   speaks_for.refuse_others();
 }
 
-void read_happened(Reader& reader, JudgedEncounter& judged) {
+void read_happened(Reader& reader, eval::JudgedEncounter& judged) {
   const json* const happened = reader.list("happened", manoeuvre::num_policies);
   if (happened != nullptr && happened->size() != manoeuvre::num_policies) {
     reader.reject("happened", fmt::format("want one entry per policy, {}, got {}",
@@ -161,7 +161,7 @@ void read_happened(Reader& reader, JudgedEncounter& judged) {
       continue;
     }
     Reader entry = reader.element("happened", *happened, i);
-    judged.happened.at(i) = PolicyOverDraws{
+    judged.happened.at(i) = eval::PolicyOverDraws{
         .plan = read_plan(entry),
         .harm = {entry.number("harm"), entry.number("harm_lo"), entry.number("harm_hi")},
         .contact = entry.number("contact")};
@@ -320,4 +320,4 @@ Result<std::vector<CrashCase>> crash_cases_from_text(std::string_view text,
   return cases;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::cases

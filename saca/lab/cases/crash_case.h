@@ -12,7 +12,7 @@
 #include "saca/lab/crash_records/facts.h"
 #include "saca/lab/eval/judged_encounter.h"
 
-namespace saca::eval {
+namespace saca::cases {
 
 /// Where a case comes from.
 struct RecordId {
@@ -43,10 +43,10 @@ struct CrashCase {
   std::uint64_t seed = 0;           ///< of the sample
   std::uint64_t sample = 0;         ///< its number
   double grip = 0.0;                ///< true friction coefficient
-  std::optional<WithoutAvoidance> without;
+  std::optional<eval::WithoutAvoidance> without;
   bool as_recorded = false;           ///< without avoidance what was recorded happens
   std::optional<bool> impact_agrees;  ///< the side hit is the recorded one; nullopt: not recorded
-  JudgedEncounter judged;
+  eval::JudgedEncounter judged;
 };
 
 /// The encounter again, as it was drawn, and its twin without risk.
@@ -69,4 +69,4 @@ struct CrashCase {
 [[nodiscard]] Result<std::vector<CrashCase>> crash_cases_from_text(std::string_view text,
                                                                    const std::string& name);
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -1,12 +1,12 @@
-#include "saca/lab/eval/crash_case.h"
+#include "saca/lab/cases/crash_case.h"
 
 #include <gmock/gmock.h>
 
-#include "saca/lab/eval/crash_search.h"
+#include "saca/lab/cases/crash_search.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/lab/eval/scenes_for_test.h"
 
-namespace saca::eval::crash_case_test {
+namespace saca::cases::crash_case_test {
 namespace {
 
 using testing::HasSubstr;
@@ -19,8 +19,8 @@ CrashCase example() {
     return slower;
   }();
   const manoeuvre::Car car = prepare::default_car();
-  const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", car, shipped_harm(),
-                                      {.seed = 3, .most = 5});
+  const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", car,
+                                      eval::shipped_harm(), {.seed = 3, .most = 5});
   CrashCase one{
       .record =
           {.study = "FARS", .name = family.name, .state = "Arizona", .year = 2016, .number = 40001},
@@ -37,14 +37,14 @@ CrashCase example() {
   for (const auto& [key, range] : family.ranges) {
     one.ranges.push_back({key, range.min, range.max, range.source});
   }
-  one.judged.one.scene = scene_at(found.scenario, car, found.as_written.time);
+  one.judged.one.scene = eval::scene_at(found.scenario, car, found.as_written.time);
   one.judged.one.plan = manoeuvre::Plan{.policy = manoeuvre::PolicyId::aeb, .strength = 0.6};
   one.judged.plans = {{one.judged.one.plan, 0.25, 0.5, true}, {{}, 0.5, 1.0, false}};
   one.judged.admissible_harm = 0.252;
   one.judged.speaks_for = one.judged.one.plan;
   one.judged.driver = manoeuvre::PolicyId::es_b_right;
   one.judged.happened[0] =
-      PolicyOverDraws{.plan = one.judged.one.plan, .harm = {0.2, 0.1, 0.3}, .contact = 0.75};
+      eval::PolicyOverDraws{.plan = one.judged.one.plan, .harm = {0.2, 0.1, 0.3}, .contact = 0.75};
   return one;
 }
 
@@ -111,4 +111,4 @@ TEST(CrashCase, RefusesWhatIsNoLineOfOne) {
 }
 
 }  // namespace
-}  // namespace saca::eval::crash_case_test
+}  // namespace saca::cases::crash_case_test

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/crash_search.h"
+#include "saca/lab/cases/crash_search.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "saca/base/core/names.h"
 #include "saca/onboard/manoeuvre/ego.h"
 
-namespace saca::eval {
+namespace saca::cases {
 namespace {
 
 constexpr std::array<std::string_view, num_crash_ends> crash_end_names{
@@ -19,7 +19,7 @@ bool is_nearer(CrashEnd a, CrashEnd b) {
   return a == CrashEnd::happens || (b != CrashEnd::happens && a > b);
 }
 
-CrashEnd end_of(const std::optional<WrittenTrigger>& as_written,
+CrashEnd end_of(const std::optional<eval::WrittenTrigger>& as_written,
                 std::optional<collision::Face> struck) {
   if (!as_written) {
     return CrashEnd::never_triggers;
@@ -50,12 +50,12 @@ CrashFound find_crash(const families::Family& family, std::optional<collision::F
       continue;
     }
     found.scenario = std::move(sample).value().scenario;
-    const auto as_written = trigger_as_written(found.scenario, car, harm);
-    found.as_written = as_written.value_or(WrittenTrigger{});
+    const auto as_written = eval::trigger_as_written(found.scenario, car, harm);
+    found.as_written = as_written.value_or(eval::WrittenTrigger{});
     const CrashEnd end = end_of(as_written, struck);
     found.end = is_nearer(end, found.end) ? end : found.end;
   }
   return found;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -8,7 +8,7 @@
 #include "saca/lab/eval/judged_encounter.h"
 #include "saca/lab/families/family.h"
 
-namespace saca::eval {
+namespace saca::cases {
 
 /// How the search for a crash in a family ended, or why it found none.
 enum class CrashEnd : std::uint8_t {
@@ -23,9 +23,9 @@ constexpr std::size_t num_crash_ends = 4;
 
 struct CrashFound {
   CrashEnd end = CrashEnd::cannot_be_drawn;
-  std::uint64_t sample = 0;     ///< the last that was tried; where it happens, that one
-  scenario::Scenario scenario;  ///< of that sample
-  WrittenTrigger as_written;    ///< of it; without meaning where nothing triggers
+  std::uint64_t sample = 0;         ///< the last that was tried; where it happens, that one
+  scenario::Scenario scenario;      ///< of that sample
+  eval::WrittenTrigger as_written;  ///< of it; without meaning where nothing triggers
 };
 
 /// Which samples of a family are tried.
@@ -42,4 +42,4 @@ struct SampleTries {
                                     const std::string& car_name, const manoeuvre::Car& car,
                                     const collision::HarmModel& harm, const SampleTries& tries);
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -1,10 +1,10 @@
-#include "saca/lab/eval/crash_search.h"
+#include "saca/lab/cases/crash_search.h"
 
 #include <gtest/gtest.h>
 
 #include "saca/lab/eval/scenes_for_test.h"
 
-namespace saca::eval::crash_search_test {
+namespace saca::cases::crash_search_test {
 namespace {
 
 class CrashSearch : public testing::Test {
@@ -20,7 +20,7 @@ class CrashSearch : public testing::Test {
 
   families::Family family_;
   manoeuvre::Car car_ = prepare::default_car();
-  collision::HarmModel harm_ = shipped_harm();
+  collision::HarmModel harm_ = eval::shipped_harm();
 };
 
 TEST_F(CrashSearch, FindsTheCrashThatTheFamilyIsAbout) {
@@ -64,4 +64,4 @@ TEST_F(CrashSearch, HasNamesForItsEnds) {
 }
 
 }  // namespace
-}  // namespace saca::eval::crash_search_test
+}  // namespace saca::cases::crash_search_test

@@ -11,13 +11,10 @@
 
 namespace saca::cases {
 
-using eval::CrashCase;
-using eval::ReplyExample;
-
 namespace {
 
 /// What every policy is expected to harm, cues standing for what this law says.
-memory::PolicyHarms expected_by(const intent::CueLaw& law, const eval::AtFirstTrigger& now,
+memory::PolicyHarms expected_by(const intent::CueLaw& law, const AtFirstTrigger& now,
                                 preview::ForecastTools tools) {
   tools.cues = &law;
   const reflex::Verdict verdict = arbitration::Forecaster(tools).judge(now.seen, now.beliefs);
@@ -38,7 +35,7 @@ void add_example(DrawnExamples& all, const scenario::Scenario& drawn, ReplyExamp
                  const ExampleSource& source, std::uint64_t words, std::uint64_t seed) {
   const scenario::Scenario world = case_world(drawn, seed);
   const preview::ForecastTools& tools = source.tools.forecast;
-  auto played = eval::at_first_trigger(
+  auto played = at_first_trigger(
       case_stage(world, source.tools, seed, example.record + (example.is_twin ? "_twin" : "")),
       tools);
   if (!played.has_value()) {
@@ -48,13 +45,13 @@ void add_example(DrawnExamples& all, const scenario::Scenario& drawn, ReplyExamp
   if (!played.value()) {
     return;
   }
-  eval::AtFirstTrigger now = *std::move(played).value();
+  AtFirstTrigger now = *std::move(played).value();
   if (source.cues) {
     example.known = expected_by(source.cues->law, now, tools);
     example.by_table = expected_by(*tools.cues, now, tools);
   }
   const auto told = source.told ? source.told->in(now.situation.scene_at_trigger) : std::nullopt;
-  auto made = eval::reply_example(std::move(example), now.situation, told, words);
+  auto made = reply_example(std::move(example), now.situation, told, words);
   if (made) {
     all.examples.push_back({.example = *std::move(made),
                             .situation = std::move(now.situation),
@@ -71,8 +68,8 @@ std::string DrawnExample::grammar(const std::optional<manoeuvre::PolicyId>& choi
 DrawnExamples drawn_examples(const CrashCase& one, const ExampleSource& source,
                              std::uint64_t words) {
   DrawnExamples all;
-  const auto again = eval::drawn_again(
-      one, source.tools.car_name, manoeuvre::footprint(*source.tools.forecast.car), source.cues);
+  const auto again = drawn_again(one, source.tools.car_name,
+                                 manoeuvre::footprint(*source.tools.forecast.car), source.cues);
   if (!again.has_value()) {
     all.problem = again.error().message;
     return all;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "saca/lab/cases/crash_case.h"
 #include "saca/lab/cases/example_source.h"
-#include "saca/lab/eval/crash_case.h"
-#include "saca/lab/eval/reply_example.h"
+#include "saca/lab/cases/reply_example.h"
 #include "saca/thinking/memory/case.h"
 #include "saca/thinking/preview/situation.h"
 
@@ -15,7 +15,7 @@ namespace saca::cases {
 
 /// An example, and what its prompt is about.
 struct DrawnExample {
-  eval::ReplyExample example;
+  ReplyExample example;
   preview::Situation situation;
   std::optional<memory::Case> nearest;  ///< that the prompt tells of
 
@@ -29,7 +29,7 @@ struct DrawnExamples {
   std::string problem;  ///< why it could not be played; else empty
 };
 /// @param words  seed of the replies' words
-[[nodiscard]] DrawnExamples drawn_examples(const eval::CrashCase& one, const ExampleSource& source,
+[[nodiscard]] DrawnExamples drawn_examples(const CrashCase& one, const ExampleSource& source,
                                            std::uint64_t words);
 
 }  // namespace saca::cases

@@ -21,7 +21,7 @@ TEST(DrawnExamplesTest, KnowOfTheEncounterWhatHappenedAndOfItsTwinNothing) {
   const DrawnExamples drawn = drawn_examples(case_by_hand(), source_with(), 1);
   EXPECT_EQ(drawn.problem, "");
   ASSERT_FALSE(drawn.examples.empty());
-  const eval::ReplyExample& first = drawn.examples.front().example;
+  const ReplyExample& first = drawn.examples.front().example;
   EXPECT_EQ(first.record, "fars_2016_40001");
   EXPECT_EQ(first.family, "rear_end");
   EXPECT_FALSE(first.is_twin);
@@ -45,7 +45,7 @@ TEST(DrawnExamplesTest, WithCuesHarmIsWhatTheirLawExpects) {
 }
 
 TEST(DrawnExamplesTest, SayWhatCannotBeDrawn) {
-  eval::CrashCase recorded = case_by_hand();
+  CrashCase recorded = case_by_hand();
   recorded.kind.reset();
   const DrawnExamples drawn = drawn_examples(recorded, source_with(), 1);
   EXPECT_TRUE(drawn.examples.empty());

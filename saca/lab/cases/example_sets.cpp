@@ -12,8 +12,6 @@
 
 namespace saca::cases {
 
-using eval::ExampleSet;
-using eval::ReplyExample;
 using nlohmann::json;
 
 namespace {
@@ -23,8 +21,7 @@ constexpr std::string_view examples_schema = "saca.reply_examples/1";
 /// What one case and its twin gave.
 using ExampleRow = long_work::ItemsRow<ReplyExample>;
 
-ExampleRow example_row(const eval::CrashCase& one, const ExampleSource& source,
-                       std::uint64_t words) {
+ExampleRow example_row(const CrashCase& one, const ExampleSource& source, std::uint64_t words) {
   DrawnExamples drawn = drawn_examples(one, source, words);
   ExampleRow row{.items = {}, .problem = std::move(drawn.problem)};
   for (DrawnExample& each : drawn.examples) {
@@ -41,8 +38,7 @@ std::string set_lines(const std::vector<ReplyExample>& examples, ExampleSet set,
   for (const ReplyExample& one : examples) {
     if (one.set == set) {
       ++count;
-      const json line =
-          format == SetFormat::openai ? eval::chat_json(one, system) : eval::to_json(one);
+      const json line = format == SetFormat::openai ? chat_json(one, system) : to_json(one);
       lines += line.dump() + '\n';
     }
   }
@@ -68,7 +64,7 @@ Result<std::optional<long_work::AllItems<ReplyExample>>> all_examples(const Exam
        .line_of = long_work::items_line<ReplyExample>,
        .row_from =
            [](const std::string& line) {
-             return long_work::items_row<ReplyExample>(line, eval::reply_example_from_json);
+             return long_work::items_row<ReplyExample>(line, reply_example_from_json);
            }});
   if (!rows.has_value()) {
     return rows.error();
@@ -81,7 +77,7 @@ Result<std::optional<long_work::AllItems<ReplyExample>>> all_examples(const Exam
 
 SetTallies set_tallies(const std::vector<ReplyExample>& examples) {
   SetTallies tallies;
-  for (const ExampleSet set : eval::all_example_sets) {
+  for (const ExampleSet set : all_example_sets) {
     tallies[set];
   }
   for (const ReplyExample& one : examples) {
@@ -173,7 +169,7 @@ std::optional<SetFormat> set_format_from(std::string_view name) {
 std::optional<Error> write_sets(const std::filesystem::path& folder,
                                 const std::vector<ReplyExample>& examples, SetFormat format,
                                 const std::string& system, const std::string& card) {
-  for (const ExampleSet set : eval::all_example_sets) {
+  for (const ExampleSet set : all_example_sets) {
     if (auto problem = long_work::write_output(folder / (std::string(name(set)) + ".jsonl"),
                                                set_lines(examples, set, format, system))) {
       return problem;

@@ -11,7 +11,7 @@
 
 #include "saca/base/core/result.h"
 #include "saca/lab/cases/example_source.h"
-#include "saca/lab/eval/reply_example.h"
+#include "saca/lab/cases/reply_example.h"
 #include "saca/lab/long_work/items_row.h"
 #include "saca/lab/long_work/progress.h"
 
@@ -28,7 +28,7 @@ struct ExampleWork {
 
 /// Of each case and its twin, from where the journal ends on.
 /// @return  nullopt: interrupted
-[[nodiscard]] Result<std::optional<long_work::AllItems<eval::ReplyExample>>> all_examples(
+[[nodiscard]] Result<std::optional<long_work::AllItems<ReplyExample>>> all_examples(
     const ExampleSource& source, const ExampleWork& work);
 
 /// What there is in one set.
@@ -41,8 +41,8 @@ struct SetTally {
   std::map<std::string, int> choices;
 };
 /// Of all sets, the empty ones too.
-using SetTallies = std::map<eval::ExampleSet, SetTally>;
-[[nodiscard]] SetTallies set_tallies(const std::vector<eval::ReplyExample>& examples);
+using SetTallies = std::map<ExampleSet, SetTally>;
+[[nodiscard]] SetTallies set_tallies(const std::vector<ReplyExample>& examples);
 
 /// What every folder of sets tells of itself, in Markdown.
 /// @param command  that makes it, without the program's name
@@ -71,7 +71,7 @@ enum class SetFormat : std::uint8_t {
 /// @param system  language_model::system_part
 /// @return        nullopt, else what could not be written
 [[nodiscard]] std::optional<Error> write_sets(const std::filesystem::path& folder,
-                                              const std::vector<eval::ReplyExample>& examples,
+                                              const std::vector<ReplyExample>& examples,
                                               SetFormat format, const std::string& system,
                                               const std::string& card);
 

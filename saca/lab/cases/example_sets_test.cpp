@@ -10,8 +10,6 @@
 namespace saca::cases::example_sets_test {
 namespace {
 
-using eval::ExampleSet;
-using eval::ReplyExample;
 using manoeuvre::index;
 using manoeuvre::PolicyId;
 using testing::HasSubstr;
@@ -88,8 +86,8 @@ TEST(ExampleSets, AreWrittenAFileEach) {
       write_sets(folder, three_examples(), SetFormat::local, "fixed part", "card").has_value());
   EXPECT_EQ(read_file(folder / "train.jsonl").value(),
             "{\"examples\":2,\"schema\":\"saca.reply_examples/1\"}\n" +
-                eval::to_json(three_examples()[0]).dump() + "\n" +
-                eval::to_json(three_examples()[1]).dump() + "\n");
+                to_json(three_examples()[0]).dump() + "\n" + to_json(three_examples()[1]).dump() +
+                "\n");
   EXPECT_EQ(read_file(folder / "calibration.jsonl").value(),
             "{\"examples\":0,\"schema\":\"saca.reply_examples/1\"}\n");
   EXPECT_EQ(read_file(folder / "system.txt").value(), "fixed part");
@@ -127,7 +125,7 @@ TEST(ExampleSets, HoldTheExamplesOfAllCases) {
   EXPECT_EQ(all.problems.size(), 1U);
   const auto again = all_examples(source, work).value().value();  // from the journal
   ASSERT_EQ(again.items.size(), all.items.size());
-  EXPECT_EQ(eval::to_json(again.items[0]), eval::to_json(all.items[0]));
+  EXPECT_EQ(to_json(again.items[0]), to_json(all.items[0]));
   source.digest = 1;
   EXPECT_THAT(all_examples(source, work).error().message, HasSubstr("journal"));
 }

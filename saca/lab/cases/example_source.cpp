@@ -14,8 +14,6 @@
 
 namespace saca::cases {
 
-using eval::CrashCase;
-
 namespace {
 
 /// Takes the cases that may be examples, and counts the others.
@@ -51,7 +49,7 @@ Result<CaseFile> read_cases(const std::string& file) {
   if (!text.has_value()) {
     return text.error();
   }
-  auto cases = eval::crash_cases_from_text(text.value(), file);
+  auto cases = crash_cases_from_text(text.value(), file);
   if (!cases.has_value()) {
     return cases.error();
   }

@@ -9,8 +9,8 @@
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/result.h"
 #include "saca/lab/cases/case_tools.h"
+#include "saca/lab/cases/crash_case.h"
 #include "saca/lab/cases/told_cases.h"
-#include "saca/lab/eval/crash_case.h"
 #include "saca/lab/families/family_cues.h"
 
 namespace saca::cases {
@@ -28,18 +28,18 @@ struct ExampleOptions {
 
 /// A file of cases.
 struct CaseFile {
-  std::vector<eval::CrashCase> cases;
+  std::vector<CrashCase> cases;
   Fnv hash;  ///< of its text
 };
 /// @param file  JSON Lines, which gzip may have compressed
-/// @return      as formats::read_compressed and eval::crash_cases_from_text
+/// @return      as formats::read_compressed and crash_cases_from_text
 [[nodiscard]] Result<CaseFile> read_cases(const std::string& file);
 
 /// The cases that examples are made of, and what with.
 struct ExampleSource {
-  std::vector<eval::CrashCase> cases;  ///< drawn from families that training may see
-  int recorded = 0;                    ///< left out: they cannot be drawn again
-  int test_only = 0;                   ///< left out: of a family that only the test split has
+  std::vector<CrashCase> cases;  ///< drawn from families that training may see
+  int recorded = 0;              ///< left out: they cannot be drawn again
+  int test_only = 0;             ///< left out: of a family that only the test split has
   CaseTools tools;
   std::optional<ToldCases> told;
   std::optional<families::FamilyCues>

@@ -14,13 +14,13 @@ using testing::HasSubstr;
 
 const std::filesystem::path scenarios = "scenarios";
 
-CaseFile file_of(std::vector<eval::CrashCase> cases) {
+CaseFile file_of(std::vector<CrashCase> cases) {
   return {.cases = std::move(cases), .hash = {}};
 }
 
 /// One that may be an example, one that was recorded, and one of a family for tests alone.
-std::vector<eval::CrashCase> three_cases() {
-  std::vector<eval::CrashCase> cases(3, case_by_hand());
+std::vector<CrashCase> three_cases() {
+  std::vector<CrashCase> cases(3, case_by_hand());
   cases[1].kind.reset();
   cases[2].kind = "cyclist";
   return cases;
@@ -34,10 +34,10 @@ TEST(ExampleSourceTest, OptionsReadAsTheyWereTyped) {
 
 TEST(ExampleSourceTest, ReadsAFileOfCases) {
   const std::string file = testing::TempDir() + "/example_source.jsonl";
-  ASSERT_FALSE(write_file(file, eval::crash_cases_text(three_cases())).has_value());
+  ASSERT_FALSE(write_file(file, crash_cases_text(three_cases())).has_value());
   const CaseFile read = read_cases(file).value();
   EXPECT_EQ(read.cases.size(), 3U);
-  EXPECT_EQ(read.hash.value(), fnv1a(eval::crash_cases_text(three_cases())));
+  EXPECT_EQ(read.hash.value(), fnv1a(crash_cases_text(three_cases())));
   ASSERT_FALSE(write_file(file, "no case").has_value());
   EXPECT_THAT(read_cases(file).error().message, HasSubstr("example_source.jsonl"));
   EXPECT_THAT(read_cases("no_such.jsonl").error().message, HasSubstr("no_such.jsonl"));
@@ -66,7 +66,7 @@ TEST(ExampleSourceTest, CuesAreOfASuiteAndPartOfTheDigest) {
 }
 
 TEST(ExampleSourceTest, SaysWhyThereIsNone) {
-  std::vector<eval::CrashCase> cases = three_cases();
+  std::vector<CrashCase> cases = three_cases();
   cases.erase(cases.begin());
   EXPECT_EQ(
       open_examples(file_of(cases), {.file = "a.jsonl"}, shipped().tools(), scenarios)

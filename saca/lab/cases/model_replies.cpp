@@ -16,8 +16,6 @@
 
 namespace saca::cases {
 
-using eval::ExampleReply;
-
 namespace {
 
 constexpr std::string_view replies_schema = "saca.example_replies/2";
@@ -59,12 +57,11 @@ ReplyRow asked_about(DrawnExamples drawn, const ReplyWork& work,
   }
   for (std::size_t i = 0; i < drawn.examples.size(); ++i) {
     const DrawnExample& each = drawn.examples[i];
-    row.items.push_back(eval::example_reply(each.example, replies.value()[i], each.situation));
+    row.items.push_back(example_reply(each.example, replies.value()[i], each.situation));
     const auto grammar = [&](manoeuvre::PolicyId choice) {
       return work.constrained ? each.grammar(choice) : "";
     };
-    if (const auto problem =
-            eval::try_again(row.items.back(), each.situation, model, clock, grammar)) {
+    if (const auto problem = try_again(row.items.back(), each.situation, model, clock, grammar)) {
       note(*problem);
     }
   }
@@ -73,17 +70,15 @@ ReplyRow asked_about(DrawnExamples drawn, const ReplyWork& work,
 
 }  // namespace
 
-Result<std::vector<eval::CrashCase>> cases_by_lot(std::vector<eval::CrashCase> cases,
-                                                  eval::ExampleSet set, std::size_t most,
-                                                  const std::string& file) {
-  std::erase_if(cases, [set](const eval::CrashCase& one) {
-    return eval::set_of_record(one.record.name) != set;
-  });
+Result<std::vector<CrashCase>> cases_by_lot(std::vector<CrashCase> cases, ExampleSet set,
+                                            std::size_t most, const std::string& file) {
+  std::erase_if(cases,
+                [set](const CrashCase& one) { return set_of_record(one.record.name) != set; });
   if (cases.empty()) {
     return Error{Error::Code::out_of_range,
                  fmt::format("{}: want cases of the {} set, got none", file, name(set))};
   }
-  const auto lot = [](const eval::CrashCase& one) {
+  const auto lot = [](const CrashCase& one) {
     return std::pair(number_of_record(one.record.name), one.record.name);
   };
   std::sort(cases.begin(), cases.end(),
@@ -114,7 +109,7 @@ Result<std::optional<long_work::AllItems<ExampleReply>>> model_replies(
        .line_of = long_work::items_line<ExampleReply>,
        .row_from =
            [](const std::string& line) {
-             return long_work::items_row<ExampleReply>(line, eval::example_reply_from_json);
+             return long_work::items_row<ExampleReply>(line, example_reply_from_json);
            },
        .spoilt_by_interrupt = true,  // it reaches the model's process, too
        .failure = [&failure] { return failure; }});
@@ -127,11 +122,11 @@ Result<std::optional<long_work::AllItems<ExampleReply>>> model_replies(
   return std::optional(long_work::all_items(*std::move(rows).value()));
 }
 
-std::vector<std::string> records_of(const std::vector<eval::CrashCase>& cases) {
+std::vector<std::string> records_of(const std::vector<CrashCase>& cases) {
   std::vector<std::string> records;
   records.reserve(cases.size());
   std::transform(cases.begin(), cases.end(), std::back_inserter(records),
-                 [](const eval::CrashCase& one) { return one.record.name; });
+                 [](const CrashCase& one) { return one.record.name; });
   return records;
 }
 
@@ -149,7 +144,7 @@ void sort_as_in_file(std::vector<ExampleReply>& replies, const std::vector<std::
 std::string replies_text(const std::vector<ExampleReply>& replies) {
   std::string lines = formats::first_json_line(replies_schema, "replies", replies.size());
   for (const ExampleReply& one : replies) {
-    lines += eval::to_json(one).dump() + '\n';
+    lines += to_json(one).dump() + '\n';
   }
   return lines;
 }

@@ -8,7 +8,7 @@
 #include "saca/base/core/clock.h"
 #include "saca/base/core/result.h"
 #include "saca/lab/cases/example_source.h"
-#include "saca/lab/eval/reply_score.h"
+#include "saca/lab/cases/reply_score.h"
 #include "saca/lab/long_work/items_row.h"
 #include "saca/lab/long_work/progress.h"
 #include "saca/thinking/language_model/language_model.h"
@@ -20,10 +20,9 @@ namespace saca::cases {
 /// @param most  0: all of the set
 /// @param file  that they were read from, for messages
 /// @return      out_of_range: the set has none
-[[nodiscard]] Result<std::vector<eval::CrashCase>> cases_by_lot(std::vector<eval::CrashCase> cases,
-                                                                eval::ExampleSet set,
-                                                                std::size_t most,
-                                                                const std::string& file);
+[[nodiscard]] Result<std::vector<CrashCase>> cases_by_lot(std::vector<CrashCase> cases,
+                                                          ExampleSet set, std::size_t most,
+                                                          const std::string& file);
 
 /// How replies are gathered, and kept in between.
 struct ReplyWork {
@@ -39,19 +38,18 @@ struct ReplyWork {
 /// on. A malformed reply is a problem of its case, as it is something that the model said.
 /// @param clock  of the model
 /// @return       nullopt: interrupted; the model's error where it cannot be asked any more
-[[nodiscard]] Result<std::optional<long_work::AllItems<eval::ExampleReply>>> model_replies(
+[[nodiscard]] Result<std::optional<long_work::AllItems<ExampleReply>>> model_replies(
     const ExampleSource& source, language_model::LanguageModel& model, const Clock& clock,
     const ReplyWork& work);
 
 /// Their names, in this order.
-[[nodiscard]] std::vector<std::string> records_of(const std::vector<eval::CrashCase>& cases);
+[[nodiscard]] std::vector<std::string> records_of(const std::vector<CrashCase>& cases);
 
 /// Sorts them as their cases stand in the file.
 /// @param records  all names of records, in the file's order
-void sort_as_in_file(std::vector<eval::ExampleReply>& replies,
-                     const std::vector<std::string>& records);
+void sort_as_in_file(std::vector<ExampleReply>& replies, const std::vector<std::string>& records);
 
 /// A file of replies: schema saca.example_replies/2 (docs/formats.md).
-[[nodiscard]] std::string replies_text(const std::vector<eval::ExampleReply>& replies);
+[[nodiscard]] std::string replies_text(const std::vector<ExampleReply>& replies);
 
 }  // namespace saca::cases

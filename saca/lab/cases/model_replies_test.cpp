@@ -11,16 +11,14 @@
 namespace saca::cases::model_replies_test {
 namespace {
 
-using eval::ExampleReply;
-using eval::ExampleSet;
 using language_model::ScriptedModel;
 using language_model::ScriptedReply;
 using manoeuvre::PolicyId;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::vector<eval::CrashCase> many_cases() {
-  std::vector<eval::CrashCase> cases;
+std::vector<CrashCase> many_cases() {
+  std::vector<CrashCase> cases;
   for (int i = 0; i < 40; ++i) {
     cases.push_back({});
     cases.back().record.name = "fars_" + std::to_string(i);
@@ -29,10 +27,10 @@ std::vector<eval::CrashCase> many_cases() {
 }
 
 TEST(ModelReplies, CasesAreDrawnByLotWhateverTheirOrder) {
-  std::vector<eval::CrashCase> cases = many_cases();
+  std::vector<CrashCase> cases = many_cases();
   const auto all = records_of(cases_by_lot(cases, ExampleSet::test, 0, "a.jsonl").value());
   EXPECT_TRUE(std::all_of(all.begin(), all.end(), [](const std::string& record) {
-    return eval::set_of_record(record) == ExampleSet::test;
+    return set_of_record(record) == ExampleSet::test;
   }));
   ASSERT_GT(all.size(), 2U);
   std::reverse(cases.begin(), cases.end());

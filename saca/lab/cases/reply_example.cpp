@@ -1,4 +1,4 @@
-#include "saca/lab/eval/reply_example.h"
+#include "saca/lab/cases/reply_example.h"
 
 #include <random>
 #include <utility>
@@ -12,7 +12,7 @@
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/preview/preview.h"
 
-namespace saca::eval {
+namespace saca::cases {
 namespace {
 
 using nlohmann::json;
@@ -136,7 +136,7 @@ json chat_json(const ReplyExample& example, std::string_view system) {
 
 Result<std::optional<AtFirstTrigger>> at_first_trigger(const encounter::Stage& stage,
                                                        const preview::ForecastTools& tools) {
-  const auto played = played_to_trigger(stage);
+  const auto played = eval::played_to_trigger(stage);
   if (!played.has_value()) {
     return played.error();
   }
@@ -179,4 +179,4 @@ std::optional<ReplyExample> reply_example(ReplyExample example, const preview::S
   return example;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -14,7 +14,7 @@
 #include "saca/thinking/memory/experience.h"
 #include "saca/thinking/preview/policy_facts.h"
 
-namespace saca::eval {
+namespace saca::cases {
 
 /// What an example is for. All examples of one record are of one set.
 enum class ExampleSet : std::uint8_t {
@@ -85,4 +85,4 @@ struct ToldCase {
                                                         const std::optional<ToldCase>& told,
                                                         std::uint64_t seed);
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/reply_example.h"
+#include "saca/lab/cases/reply_example.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "saca/thinking/language_model/reply.h"
 #include "saca/thinking/language_model/truth.h"
 
-namespace saca::eval::reply_example_test {
+namespace saca::cases::reply_example_test {
 namespace {
 
 using manoeuvre::index;
@@ -27,12 +27,12 @@ class Examples : public testing::Test {
   }
 
   manoeuvre::Car car_ = prepare::default_car();
-  collision::HarmModel harm_ = shipped_harm();
+  collision::HarmModel harm_ = eval::shipped_harm();
 };
 
 // Braking needs 49 m and has 28.6 m, to the right is a barrier: the left alone helps.
 TEST_F(Examples, TellTheWayThatHelpsAndWhy) {
-  const preview::Situation situation = of(only_left_helps()).value();
+  const preview::Situation situation = of(eval::only_left_helps()).value();
   const ReplyExample example =
       reply_example({.record = "fars_1", .family = "rear_end"}, situation, std::nullopt, 1).value();
   EXPECT_EQ(manoeuvre::side(example.choice), 1);
@@ -46,7 +46,7 @@ TEST_F(Examples, TellTheWayThatHelpsAndWhy) {
 }
 
 TEST_F(Examples, ChooseByWhatIsKnownToHappen) {
-  const preview::Situation situation = of(only_left_helps()).value();
+  const preview::Situation situation = of(eval::only_left_helps()).value();
   ReplyExample given{.record = "fars_1", .family = "rear_end"};
   given.known.fill(0.0);
   const ReplyExample first = reply_example(given, situation, std::nullopt, 1).value();
@@ -59,13 +59,13 @@ TEST_F(Examples, ChooseByWhatIsKnownToHappen) {
 }
 
 TEST_F(Examples, AreOfEncountersInWhichTheTriggerFires) {
-  scenario::Scenario empty = standing_car(20.0, 60.0);
+  scenario::Scenario empty = eval::standing_car(20.0, 60.0);
   empty.actors.clear();
   EXPECT_FALSE(of(empty).has_value());
 }
 
 TEST_F(Examples, TellOfACase) {
-  const preview::Situation situation = of(only_left_helps()).value();
+  const preview::Situation situation = of(eval::only_left_helps()).value();
   memory::Case found;
   found.best = PolicyId::aes_left;
   const ReplyExample example =
@@ -75,7 +75,7 @@ TEST_F(Examples, TellOfACase) {
 }
 
 TEST_F(Examples, ComeBackFromTheirLine) {
-  const preview::Situation situation = of(only_left_helps()).value();
+  const preview::Situation situation = of(eval::only_left_helps()).value();
   ReplyExample given{.record = "fars_1", .family = "rear_end", .is_twin = true};
   given.known[0] = 0.25;
   const ReplyExample example = reply_example(given, situation, std::nullopt, 1).value();
@@ -131,4 +131,4 @@ TEST(ExampleSets, AreOfTheirShares) {
 }
 
 }  // namespace
-}  // namespace saca::eval::reply_example_test
+}  // namespace saca::cases::reply_example_test

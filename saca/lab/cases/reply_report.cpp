@@ -10,7 +10,6 @@
 namespace saca::cases {
 
 using eval::add_estimate;
-using eval::ReplyScore;
 using eval::with_interval;
 using nlohmann::json;
 
@@ -25,7 +24,7 @@ std::string choices_text(const ReplyScore& score) {
   std::string text =
       fmt::format("{:42} {:>22} {:>12} {:>24} {:>24}\n", "choice", "best of admissible, %",
                   "admissible,%", "regret", "harm above the rule's");
-  for (const eval::ReplyChoice& one : score.choices) {
+  for (const ReplyChoice& one : score.choices) {
     text += fmt::format("{:42} {:>22} {:12.1f} {:>24} {:>24}\n", one.title,
                         with_interval(one.best_within, 1, 100.0), 100.0 * one.admissible.value,
                         with_interval(one.regret, 4), with_interval(one.above_rule, 4));
@@ -51,7 +50,7 @@ json score_json(const ReplyScore& score, std::size_t failed) {
            {"eval.tokens.p50", median_of(score.tokens)},
            {"eval.tokens.max", score.tokens.back()}};
   add_estimate(out, "eval.twins.needless", score.needless);
-  for (const eval::ReplyChoice& one : score.choices) {
+  for (const ReplyChoice& one : score.choices) {
     const std::string key = fmt::format("eval.{}.", one.key);
     add_estimate(out, key + "best_within", one.best_within);
     add_estimate(out, key + "admissible", one.admissible);

@@ -8,8 +8,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-eval::ReplyScore score_by_hand() {
-  eval::ReplyScore score;
+ReplyScore score_by_hand() {
+  ReplyScore score;
   score.examples = 4;
   score.known = 2;
   score.choices = {{.key = "model",
@@ -44,7 +44,7 @@ TEST(ReplyReport, HasFiguresOfRepliesAndChoices) {
 }
 
 TEST(ReplyReport, ATemperatureIsToldWhereThereIsOne) {
-  eval::ReplyScore score = score_by_hand();
+  ReplyScore score = score_by_hand();
   EXPECT_THAT(score_text(score, "test", "m"), Not(HasSubstr("Temperature")));
   score.calibration = {.count = 3, .temperature = 1.5, .log_loss = 0.5, .log_loss_now = 0.75};
   const nlohmann::json figures = score_json(score, 0);

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/reply_score.h"
+#include "saca/lab/cases/reply_score.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "saca/thinking/language_model/truth.h"
 #include "saca/thinking/memory/experience.h"
 
-namespace saca::eval {
+namespace saca::cases {
 namespace {
 
 using From = language_model::Explanation::From;
@@ -23,15 +23,16 @@ using nlohmann::json;
 
 constexpr std::string_view reply_schema = "saca.example_reply/2";
 
-json probabilities_json(const std::optional<Probabilities>& answer) {
+json probabilities_json(const std::optional<eval::Probabilities>& answer) {
   return answer ? json(*answer) : json(nullptr);
 }
 
-std::optional<Probabilities> read_probabilities(formats::JsonReader& reader, std::string_view key) {
+std::optional<eval::Probabilities> read_probabilities(formats::JsonReader& reader,
+                                                      std::string_view key) {
   if (!reader.has_value(key)) {
     return std::nullopt;
   }
-  Probabilities answer{};
+  eval::Probabilities answer{};
   reader.numbers(key, answer);
   return answer;
 }
@@ -52,7 +53,7 @@ bool is_admissible(const ReplyExample& example, PolicyId policy) {
   return example.admissible.test(manoeuvre::index(policy));
 }
 
-PolicyId likeliest(const std::optional<Probabilities>& answer) {
+PolicyId likeliest(const std::optional<eval::Probabilities>& answer) {
   return answer ? language_model::likeliest_policy({.probability = *answer}) : PolicyId::aeb;
 }
 
@@ -150,7 +151,7 @@ ReplyChoice figures_of(std::span<const ExampleReply* const> known, const Chooser
     for (const ExampleReply* one : known) {
       values.emplace_back(measure(*one, chooser.choose(*one)));
     }
-    return mean_over_encounters(values, seed);
+    return eval::mean_over_encounters(values, seed);
   };
   return {.key = chooser.key,
           .title = chooser.title,
@@ -182,13 +183,13 @@ double share(
   return num == 0 ? 0.0 : static_cast<double>(num_held) / static_cast<double>(num);
 }
 
-std::optional<Calibration> calibration_of(std::span<const ExampleReply* const> known) {
-  std::vector<JudgedAnswer> judged;
+std::optional<eval::Calibration> calibration_of(std::span<const ExampleReply* const> known) {
+  std::vector<eval::JudgedAnswer> judged;
   for (const ExampleReply* one : known) {
     if (!one->last) {
       continue;
     }
-    JudgedAnswer answer{*one->last, {}};
+    eval::JudgedAnswer answer{*one->last, {}};
     const double best = harm_of(one->example.known, best_within(*one));
     for (std::size_t k = 0; k < answer.right.size(); ++k) {
       answer.right.at(k) =
@@ -347,10 +348,10 @@ ReplyScore reply_score(std::span<const ExampleReply> replies, std::uint64_t seed
   for (const Chooser& chooser : choosers) {
     score.choices.push_back(figures_of(known, chooser, seed));
   }
-  score.needless = mean_over_encounters(needless, seed);
+  score.needless = eval::mean_over_encounters(needless, seed);
   score.calibration = calibration_of(known);
   score_texts(score, replies);
   return score;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::cases

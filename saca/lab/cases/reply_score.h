@@ -11,27 +11,28 @@
 #include <vector>
 
 #include "saca/base/core/result.h"
+#include "saca/lab/cases/reply_example.h"
 #include "saca/lab/eval/calibration.h"
 #include "saca/lab/eval/model_score.h"
-#include "saca/lab/eval/reply_example.h"
 #include "saca/lab/eval/suite_figures.h"
 #include "saca/thinking/language_model/explanation.h"
 #include "saca/thinking/language_model/language_model.h"
 
-namespace saca::eval {
+namespace saca::cases {
 
 /// What a language model replied to an example's prompt, and how far that is true. One line of a
 /// file of them: schema "saca.example_reply/2".
 struct ExampleReply {
   ReplyExample example;
-  std::string reasoning;               ///< as written, without the answer
-  std::optional<Probabilities> first;  ///< of its answer at once; nullopt: there was none
-  std::optional<Probabilities> last;   ///< of its answer after reasoning; nullopt: there was none
-  bool ended = false;                  ///< the reply came to its end by itself
-  int tokens = 0;                      ///< of the reasoning
-  int statements = 0;                  ///< that can be checked
-  int false_statements = 0;            ///< of these
-  bool unfounded = false;              ///< the choice rests on one of them
+  std::string reasoning;                     ///< as written, without the answer
+  std::optional<eval::Probabilities> first;  ///< of its answer at once; nullopt: there was none
+  std::optional<eval::Probabilities>
+      last;                  ///< of its answer after reasoning; nullopt: there was none
+  bool ended = false;        ///< the reply came to its end by itself
+  int tokens = 0;            ///< of the reasoning
+  int statements = 0;        ///< that can be checked
+  int false_statements = 0;  ///< of these
+  bool unfounded = false;    ///< the choice rests on one of them
   /// Whose words would be shown as the reason of its last answer (language_model::explanation).
   language_model::Explanation::From shown = language_model::Explanation::From::facts;
   /// The same, where the model may try again (language_model::told_again), and after how many
@@ -65,13 +66,13 @@ using ChoiceGrammar = std::function<std::string(manoeuvre::PolicyId)>;
 /// A way to choose, and how well it does over examples of which the harm of every policy that can
 /// be driven is known. Who chooses what cannot be driven brakes.
 struct ReplyChoice {
-  std::string_view key;    ///< as files have it
-  std::string_view title;  ///< for readers
-  Estimate best_within;    ///< share: of the admissible as good as the best (memory::as_good)
-  Estimate admissible;     ///< share: chosen from the admissible
-  Estimate harm;           ///< known, of what is chosen
-  Estimate regret;         ///< above the least of all
-  Estimate above_rule;     ///< harm above that of the rule within the admissible, paired
+  std::string_view key;        ///< as files have it
+  std::string_view title;      ///< for readers
+  eval::Estimate best_within;  ///< share: of the admissible as good as the best (memory::as_good)
+  eval::Estimate admissible;   ///< share: chosen from the admissible
+  eval::Estimate harm;         ///< known, of what is chosen
+  eval::Estimate regret;       ///< above the least of all
+  eval::Estimate above_rule;   ///< harm above that of the rule within the admissible, paired
 };
 
 /// How well a model replies.
@@ -79,8 +80,8 @@ struct ReplyScore {
   int examples = 0;
   int known = 0;  ///< of them harm is known
   std::vector<ReplyChoice> choices;
-  Estimate needless;  ///< of the twins: the model's choice, within the admissible, intervenes
-                      ///< though nothing has to be done
+  eval::Estimate needless;  ///< of the twins: the model's choice, within the admissible, intervenes
+                            ///< though nothing has to be done
   // Of all replies:
   double ended = 0.0;            ///< share that came to their end by themselves
   double agrees = 0.0;           ///< share whose text names the choice that its answer then makes
@@ -92,11 +93,12 @@ struct ReplyScore {
   double shown_in_part = 0.0;    ///< share of which what is true is shown; of the rest the figures
   double shown_at_last = 0.0;    ///< share whose words are shown, in part or not, after most_tries
   std::vector<int> tokens;       ///< of each reply, ascending
-  std::optional<Calibration> calibration;  ///< of the last answers: as good as the best within
+  std::optional<eval::Calibration>
+      calibration;  ///< of the last answers: as good as the best within
 };
 
 /// @param replies  at least one
 /// @param seed     of the intervals
 [[nodiscard]] ReplyScore reply_score(std::span<const ExampleReply> replies, std::uint64_t seed);
 
-}  // namespace saca::eval
+}  // namespace saca::cases

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/reply_score.h"
+#include "saca/lab/cases/reply_score.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/scripted_model.h"
 
-namespace saca::eval::reply_score_test {
+namespace saca::cases::reply_score_test {
 namespace {
 
 using manoeuvre::index;
@@ -20,8 +20,8 @@ using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Probabilities sure_of(PolicyId policy) {
-  Probabilities answer{};
+eval::Probabilities sure_of(PolicyId policy) {
+  eval::Probabilities answer{};
   answer.fill(0.01);
   answer.at(index(policy)) = 0.93;
   return answer;
@@ -206,4 +206,4 @@ TEST(ReplyScoreTest, WhatDoesNotHoldIsTriedAgain) {
 }
 
 }  // namespace
-}  // namespace saca::eval::reply_score_test
+}  // namespace saca::cases::reply_score_test

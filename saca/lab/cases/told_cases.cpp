@@ -9,13 +9,12 @@ namespace saca::cases {
 ToldCases::ToldCases(std::vector<memory::Case> cases)
     : cases_(std::move(cases)), experience_(cases_) {}
 
-std::optional<eval::ToldCase> ToldCases::in(const world::Scene& scene) const {
+std::optional<ToldCase> ToldCases::in(const world::Scene& scene) const {
   const auto recalled = experience_.recall(match::features(scene));
   if (!recalled) {
     return std::nullopt;
   }
-  return eval::ToldCase{cases_[static_cast<std::size_t>(recalled->nearest - 1)],
-                        recalled->similarity};
+  return ToldCase{cases_[static_cast<std::size_t>(recalled->nearest - 1)], recalled->similarity};
 }
 
 }  // namespace saca::cases

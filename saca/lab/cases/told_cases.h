@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "saca/base/world/scene.h"
-#include "saca/lab/eval/reply_example.h"
+#include "saca/lab/cases/reply_example.h"
 #include "saca/thinking/memory/case.h"
 #include "saca/thinking/memory/experience.h"
 
@@ -16,7 +16,7 @@ class ToldCases {
   explicit ToldCases(std::vector<memory::Case> cases);
 
   /// The most alike of those that speak for what is recalled; nullopt: nothing is recalled.
-  [[nodiscard]] std::optional<eval::ToldCase> in(const world::Scene& scene) const;
+  [[nodiscard]] std::optional<ToldCase> in(const world::Scene& scene) const;
 
  private:
   std::vector<memory::Case> cases_;

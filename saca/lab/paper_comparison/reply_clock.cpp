@@ -25,7 +25,7 @@ Result<std::vector<language_model::Question>> questions_of(const PaperTable& tab
     draws.push_back(conditions.value()[k % num]);
     draws.back().number = k;
   }
-  return eval::first_questions(draws, {.methods = {}, .seed = seed}, *clock.setup, *clock.intent);
+  return first_questions(draws, {.methods = {}, .seed = seed}, *clock.setup, *clock.intent);
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ Result<std::vector<TimedModel>> timed_models(const ReplyClock& clock, const Tabl
         return model.error();
       }
       const auto times =
-          eval::timed_replies(*model.value(), *clock.setup->clock, questions.value(),
-                              thresholds.preview - thresholds.trigger, patience, interrupt.token());
+          timed_replies(*model.value(), *clock.setup->clock, questions.value(),
+                        thresholds.preview - thresholds.trigger, patience, interrupt.token());
       if (!times.has_value()) {
         return Error{times.error().code,
                      fmt::format("{}: {}", asked.option, times.error().message)};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "saca/base/core/result.h"
-#include "saca/lab/eval/reply_timing.h"
+#include "saca/lab/paper_comparison/reply_timing.h"
 #include "saca/lab/paper_comparison/table_request.h"
 #include "saca/onboard/manoeuvre/car.h"
 #include "saca/runtime/planes.h"
@@ -32,7 +32,7 @@ struct TimedModel {
   std::string table;  ///< its name
   std::string title;  ///< of the model
   std::string key;    ///< of the figures
-  eval::ReplyTimes times;
+  ReplyTimes times;
 };
 
 /// What questions come of and how models are opened. What it points to outlives the call.
@@ -46,7 +46,7 @@ struct ReplyClock {
 };
 
 /// Puts the first questions in about ten draws of each wanted table of which the paper has replies,
-/// as many of each condition, to each model: eval::timed_replies, a minute's patience with each.
+/// as many of each condition, to each model: timed_replies, a minute's patience with each.
 /// @return  of those of whom there was time to ask before an interrupt that is watched for
 [[nodiscard]] Result<std::vector<TimedModel>> timed_models(const ReplyClock& clock,
                                                            const TableRequest& request);

@@ -1,9 +1,9 @@
-#include "saca/lab/eval/reply_timing.h"
+#include "saca/lab/paper_comparison/reply_timing.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace saca::eval {
+namespace saca::paper_comparison {
 namespace {
 
 using Kind = language_model::Answer::Kind;
@@ -30,19 +30,18 @@ class Listening final : public language_model::LanguageModel {
 
 }  // namespace
 
-std::vector<language_model::Question> first_questions(std::span<const SuiteEncounter> encounters,
-                                                      const SuiteOptions& options,
-                                                      const runtime::PlanesSetup& saca,
-                                                      const intent::Model& intent) {
-  SuiteOptions alone = options;
+std::vector<language_model::Question> first_questions(
+    std::span<const eval::SuiteEncounter> encounters, const eval::SuiteOptions& options,
+    const runtime::PlanesSetup& saca, const intent::Model& intent) {
+  eval::SuiteOptions alone = options;
   alone.methods = {"saca"};
   std::vector<language_model::Question> questions;
-  for (const SuiteEncounter& encounter : encounters) {
+  for (const eval::SuiteEncounter& encounter : encounters) {
     Listening listening;
     runtime::PlanesSetup setup = saca;
     setup.memory = nullptr;
     setup.model = &listening;
-    SuiteEncounter with_risk = encounter;
+    eval::SuiteEncounter with_risk = encounter;
     with_risk.twin.reset();
     (void)run_encounter(with_risk, alone, setup, intent);
     if (!listening.first().scenes.empty()) {
@@ -94,9 +93,9 @@ Result<ReplyTimes> timed_replies(language_model::LanguageModel& model, const Clo
       seconds.emplace_back(seconds_of_them / done);
     }
   }
-  times.tokens = mean_over_encounters(tokens, 1);
-  times.seconds = mean_over_encounters(seconds, 1);
+  times.tokens = eval::mean_over_encounters(tokens, 1);
+  times.seconds = eval::mean_over_encounters(seconds, 1);
   return times;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::paper_comparison

@@ -9,13 +9,13 @@
 #include "saca/lab/eval/suite_figures.h"
 #include "saca/thinking/language_model/language_model.h"
 
-namespace saca::eval {
+namespace saca::paper_comparison {
 
 /// What SACA asks a model at first in each of these encounters, if no answer ever came and there
 /// were no memory: about up to three scenes. None of an encounter in which nothing is asked.
 /// @param saca  its model and memory are not asked
 [[nodiscard]] std::vector<language_model::Question> first_questions(
-    std::span<const SuiteEncounter> encounters, const SuiteOptions& options,
+    std::span<const eval::SuiteEncounter> encounters, const eval::SuiteOptions& options,
     const runtime::PlanesSetup& saca, const intent::Model& intent);
 
 /// How long replies are, and how long they take by the clock.
@@ -27,8 +27,8 @@ struct ReplyTimes {
   int in_time = 0;  ///< done within the time from T2 to T1
   /// Of replies that are done, from the question to the last answer, whatever else is asked with
   /// it. Means over questions of the mean of each: what is asked at once is no independent sample.
-  Estimate tokens;
-  Estimate seconds;
+  eval::Estimate tokens;
+  eval::Estimate seconds;
   std::optional<double> least_seconds;  ///< of all that are done
 };
 
@@ -45,4 +45,4 @@ struct ReplyTimes {
                                                double in_time, double patience,
                                                const std::stop_token& stop = {});
 
-}  // namespace saca::eval
+}  // namespace saca::paper_comparison

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/reply_timing.h"
+#include "saca/lab/paper_comparison/reply_timing.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/language_model/scripted_model.h"
 
-namespace saca::eval::reply_timing_test {
+namespace saca::paper_comparison::reply_timing_test {
 namespace {
 
 using Kind = language_model::Answer::Kind;
@@ -61,13 +61,13 @@ TEST(ReplyTiming, WhoNeverAnswersIsAskedAndWhoCannotBeReachedIsAnError) {
 TEST(ReplyTiming, TheFirstQuestionIsOfTheForecastsMadeAtFirst) {
   SteadyClock clock;
   const manoeuvre::Car car = prepare::default_car();
-  const collision::HarmModel harm = shipped_harm();
+  const collision::HarmModel harm = eval::shipped_harm();
   const runtime::PlanesSetup setup{.forecast = {&car, &harm}, .clock = &clock};
-  const SuiteEncounter dangerous{
-      .number = 0, .family = "made", .scenario = standing_car(19.0, 60.0), .twin = {}};
-  SuiteEncounter harmless = dangerous;
+  const eval::SuiteEncounter dangerous{
+      .number = 0, .family = "made", .scenario = eval::standing_car(19.0, 60.0), .twin = {}};
+  eval::SuiteEncounter harmless = dangerous;
   harmless.scenario.actors.clear();
-  const std::vector<SuiteEncounter> both{dangerous, harmless, dangerous};
+  const std::vector<eval::SuiteEncounter> both{dangerous, harmless, dangerous};
   const auto questions =
       first_questions(both, {.methods = {}, .seed = 1}, setup, intent::shipped_model());
   ASSERT_EQ(questions.size(), 2U) << "nothing is asked where nobody is";
@@ -78,4 +78,4 @@ TEST(ReplyTiming, TheFirstQuestionIsOfTheForecastsMadeAtFirst) {
 }
 
 }  // namespace
-}  // namespace saca::eval::reply_timing_test
+}  // namespace saca::paper_comparison::reply_timing_test

@@ -100,7 +100,7 @@ report::PageTable replies_table(const std::vector<TimedModel>& timed) {
          .shades = {}});
   }
   for (const TimedModel& one : timed) {
-    const eval::ReplyTimes& times = one.times;
+    const ReplyTimes& times = one.times;
     page.rows.push_back(
         {.name = fmt::format("{}, {}", eval::find_paper_table(one.table)->title, one.title),
          .explanation = {},

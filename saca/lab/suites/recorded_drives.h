@@ -8,8 +8,8 @@
 
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/result.h"
-#include "saca/lab/eval/shadow.h"
 #include "saca/lab/scenario/scenario.h"
+#include "saca/lab/suites/shadow.h"
 
 namespace saca::suites {
 

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/shadow.h"
+#include "saca/lab/suites/shadow.h"
 
 #include <fmt/core.h>
 
@@ -19,7 +19,7 @@
 #include "saca/thinking/preview/caution.h"
 #include "saca/thinking/preview/previewed_threat.h"
 
-namespace saca::eval {
+namespace saca::suites {
 namespace {
 
 constexpr double least_recorded = 1.0;  // of the ego [s]
@@ -78,8 +78,8 @@ std::optional<Error> unwatchable(const scenario::Scenario& scenario) {
 void drop_who_is_gone(const scenario::Scenario& scenario, world::Scene& scene) {
   StaticVector<world::Actor, world::max_actors> there;
   for (const world::Actor& actor : scene.actors) {
-    const scenario::Recording* recording =
-        std::get_if<scenario::Recording>(&scenario.actors[actor_index(scenario, actor)].motion);
+    const scenario::Recording* recording = std::get_if<scenario::Recording>(
+        &scenario.actors[eval::actor_index(scenario, actor)].motion);
     if (recording == nullptr || scene.time <= recording->back().time + nearly_now) {
       there.push_back(actor);
     }
@@ -180,7 +180,7 @@ world::Track track_to(double from, double to, const auto& pose) {
 }  // namespace
 
 Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario, const ShadowSetup& setup,
-                                 const ShadowWindow& window) {
+                                 const eval::ShadowWindow& window) {
   complete_shadow(setup);
   expects(window.from >= 0.0 && (!window.until || *window.until > window.from),
           "0 <= from < until");
@@ -234,11 +234,12 @@ Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario, const Shado
       const world::Actor& who = seen.actors[threat->actor];
       drive.triggers.push_back({seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
                                 judged(world, manoeuvre::footprint(*setup.car),
-                                       actor_index(world, who), seen.time, window)});
+                                       eval::actor_index(world, who), seen.time, window)});
     }
     if (intervention.look(seen.time, begun.has_value())) {
-      begun->trigger.judgement = judged(world, manoeuvre::footprint(*setup.car),
-                                        actor_index(world, decider->feared()), seen.time, window);
+      begun->trigger.judgement =
+          judged(world, manoeuvre::footprint(*setup.car),
+                 eval::actor_index(world, decider->feared()), seen.time, window);
       drive.interventions.push_back(*std::move(begun));
     }
     if (last_p_W) {
@@ -274,7 +275,7 @@ ShadowPicture shadow_picture(const scenario::Scenario& scenario, const ShadowSet
     return world::ego_going_on(scene, t, world::EgoPrediction::as_measured);
   });
   for (const world::Actor& actor : scene.actors) {
-    const std::size_t i = actor_index(world, actor);
+    const std::size_t i = eval::actor_index(world, actor);
     const auto* recording = std::get_if<scenario::Recording>(&world.actors[i].motion);
     const double last = recording == nullptr ? now + shown_for : recording->back().time;
     picture.others.push_back(track_to(now, std::min(now + shown_for, last), [&](double t) {
@@ -286,4 +287,4 @@ ShadowPicture shadow_picture(const scenario::Scenario& scenario, const ShadowSet
   return picture;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::suites

@@ -14,7 +14,7 @@
 #include "saca/runtime/planes.h"
 #include "saca/thinking/intent/model.h"
 
-namespace saca::eval {
+namespace saca::suites {
 
 // SACA in shadow: it watches a recorded drive and never takes the wheel. What it would have done to
 // people in ordinary traffic shows in how often it wakes, and how often it would have acted without
@@ -47,7 +47,7 @@ struct ShadowTrigger {
   std::string who;
   double time_to_conflict = 0.0;  ///< then [s], >= 0
   double speed = 0.0;             ///< of the ego [m/s]
-  ShadowJudgement judgement;
+  eval::ShadowJudgement judgement;
 };
 
 /// SACA itself would have taken the wheel: at T1, before where waiting would cost harm, or later
@@ -85,7 +85,7 @@ struct ShadowDrive {
 ///                            is not 0 <= from < until
 [[nodiscard]] Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario,
                                                const ShadowSetup& setup,
-                                               const ShadowWindow& window = {});
+                                               const eval::ShadowWindow& window = {});
 
 /// A trigger for people to look at.
 struct ShadowPicture {
@@ -100,4 +100,4 @@ struct ShadowPicture {
 [[nodiscard]] ShadowPicture shadow_picture(const scenario::Scenario& scenario,
                                            const ShadowSetup& setup, const ShadowTrigger& trigger);
 
-}  // namespace saca::eval
+}  // namespace saca::suites

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/shadow_rows.h"
+#include "saca/lab/suites/shadow_rows.h"
 
 #include <fmt/core.h>
 
@@ -9,11 +9,11 @@
 #include "saca/base/core/printable.h"
 #include "saca/base/formats/json_text.h"
 
-namespace saca::eval {
+namespace saca::suites {
 namespace {
 
 nlohmann::json json_of_trigger(const ShadowTrigger& trigger) {
-  const ShadowJudgement& told = trigger.judgement;
+  const eval::ShadowJudgement& told = trigger.judgement;
   return nlohmann::json::array(
       {trigger.time, trigger.who, trigger.time_to_conflict, trigger.speed, name(told.reason),
        told.driver_deceleration, told.other_deceleration, told.driver_lateral_acceleration,
@@ -27,8 +27,8 @@ ShadowTrigger trigger_from(const nlohmann::json& in) {
                         .time_to_conflict = in.at(2).get<double>(),
                         .speed = in.at(3).get<double>(),
                         .judgement = {}};
-  ShadowJudgement& told = trigger.judgement;
-  const auto reason = shadow_reason_from(in.at(4).get<std::string>());
+  eval::ShadowJudgement& told = trigger.judgement;
+  const auto reason = eval::shadow_reason_from(in.at(4).get<std::string>());
   if (!reason) {
     throw std::runtime_error("want the name of a reason");
   }
@@ -43,8 +43,8 @@ ShadowTrigger trigger_from(const nlohmann::json& in) {
   return trigger;
 }
 
-Rate rate_of(int count, double exposure) {
-  return exposure > 0.0 ? poisson_rate(count, exposure) : Rate{.count = count};
+eval::Rate rate_of(int count, double exposure) {
+  return exposure > 0.0 ? eval::poisson_rate(count, exposure) : eval::Rate{.count = count};
 }
 
 void count(const ShadowTrigger& trigger, ShadowCounts& counts) {
@@ -155,4 +155,4 @@ ShadowFigures shadow_figures(std::span<const ShadowRow> rows, std::string_view s
   return figures;
 }
 
-}  // namespace saca::eval
+}  // namespace saca::suites

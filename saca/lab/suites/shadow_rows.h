@@ -8,9 +8,9 @@
 
 #include "saca/base/core/result.h"
 #include "saca/lab/eval/rate.h"
-#include "saca/lab/eval/shadow.h"
+#include "saca/lab/suites/shadow.h"
 
-namespace saca::eval {
+namespace saca::suites {
 
 /// One recorded vehicle as the ego.
 struct ShadowRow {
@@ -28,13 +28,13 @@ struct ShadowRow {
 
 /// How often one thing was seen, and how often without need.
 struct ShadowCounts {
-  Rate per_hour;
-  Rate per_1000km;
-  Rate false_per_hour;
-  Rate false_per_1000km;
+  eval::Rate per_hour;
+  eval::Rate per_1000km;
+  eval::Rate false_per_hour;
+  eval::Rate false_per_1000km;
   int danger = 0;
   int at_rest = 0;  ///< of an ego slower than 0.5 m/s, which could do nothing
-  std::map<ShadowReason, int> reasons;
+  std::map<eval::ShadowReason, int> reasons;
 };
 
 /// Many drives together. Rates are per hour watched and per 1,000 km driven.
@@ -43,8 +43,8 @@ struct ShadowFigures {
   int left_out = 0;
   double hours = 0.0;
   double kilometres = 0.0;
-  Rate previews_per_hour;
-  Rate previews_per_1000km;
+  eval::Rate previews_per_hour;
+  eval::Rate previews_per_1000km;
   ShadowCounts triggers;
   ShadowCounts interventions;
   int early = 0;  ///< of the interventions, before T1
@@ -54,4 +54,4 @@ struct ShadowFigures {
 [[nodiscard]] ShadowFigures shadow_figures(std::span<const ShadowRow> rows,
                                            std::string_view source);
 
-}  // namespace saca::eval
+}  // namespace saca::suites

@@ -1,11 +1,11 @@
-#include "saca/lab/eval/shadow_rows.h"
+#include "saca/lab/suites/shadow_rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace saca::eval::shadow_rows_test {
+namespace saca::suites::shadow_rows_test {
 namespace {
 
 ShadowRow row_of(const std::string& source, double seconds, double metres) {
@@ -22,7 +22,7 @@ ShadowRow row_of(const std::string& source, double seconds, double metres) {
                                     {.driver_deceleration = 4.5,
                                      .needed_deceleration = 3.25,
                                      .least_gap = 1.0 / 3.0,
-                                     .reason = ShadowReason::driver_braked}},
+                                     .reason = eval::ShadowReason::driver_braked}},
                                    {4.5, "van1", 0.5, 3.0, {.needed_deceleration = std::nullopt}}},
                       .interventions = {{{0.75,
                                           "car1",
@@ -31,7 +31,7 @@ ShadowRow row_of(const std::string& source, double seconds, double metres) {
                                           {.driver_deceleration = 4.5,
                                            .needed_deceleration = 2.25,
                                            .least_gap = 1.0 / 3.0,
-                                           .reason = ShadowReason::driver_braked}},
+                                           .reason = eval::ShadowReason::driver_braked}},
                                          "AEB",
                                          true}}}};
 }
@@ -87,7 +87,7 @@ TEST(ShadowRows, AddUpBySource) {
   EXPECT_EQ(one.interventions.false_per_hour.count, 0);
   EXPECT_EQ(one.early, 2);
   EXPECT_NEAR(one.previews_per_hour.value, 2.0, 1e-9);
-  EXPECT_EQ(one.triggers.reasons.at(ShadowReason::driver_braked), 2);
+  EXPECT_EQ(one.triggers.reasons.at(eval::ShadowReason::driver_braked), 2);
   EXPECT_EQ(shadow_figures(rows, "").triggers.per_hour.count, 6);
   const ShadowFigures none = shadow_figures(rows, "i80");
   EXPECT_EQ(none.drives, 0);
@@ -95,4 +95,4 @@ TEST(ShadowRows, AddUpBySource) {
 }
 
 }  // namespace
-}  // namespace saca::eval::shadow_rows_test
+}  // namespace saca::suites::shadow_rows_test

@@ -1,4 +1,4 @@
-#include "saca/lab/eval/shadow.h"
+#include "saca/lab/suites/shadow.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include "saca/lab/eval/scenes_for_test.h"
 #include "saca/thinking/intent/shipped_model.h"
 
-namespace saca::eval::shadow_test {
+namespace saca::suites::shadow_test {
 namespace {
 
 using testing::HasSubstr;
@@ -57,7 +57,7 @@ class Shadow : public testing::Test {
                                 .mass = 1500.0,
                                 .motion = way.recording(from, to)});
   }
-  ShadowDrive watched(const ShadowWindow& window = {}) {
+  ShadowDrive watched(const eval::ShadowWindow& window = {}) {
     const auto drive = shadow_drive(scenario_, setup_, window);
     EXPECT_TRUE(drive.has_value()) << drive.error().message;
     return drive.value();
@@ -95,7 +95,7 @@ TEST_F(Shadow, WhoStopsLateSetsOffOneTrigger) {
   EXPECT_NEAR(trigger.time_to_conflict, 1.295, 0.0101);
   EXPECT_EQ(trigger.who, "car1");
   EXPECT_NEAR(trigger.speed, 15.0, 1e-9);
-  EXPECT_EQ(trigger.judgement.reason, ShadowReason::driver_braked);
+  EXPECT_EQ(trigger.judgement.reason, eval::ShadowReason::driver_braked);
   EXPECT_NEAR(trigger.judgement.driver_deceleration, 6.5, 1e-6);
   EXPECT_NEAR(trigger.judgement.least_gap, 80.0 - front - 58.5 - 225.0 / 13.0, 0.02);
   // 82.5 m or less are within T2: from the beginning.
@@ -221,7 +221,7 @@ class ShadowOfSaca : public Shadow {
  protected:
   ShadowOfSaca() { setup_.saca = &planes_; }
 
-  collision::HarmModel harm_ = shipped_harm();
+  collision::HarmModel harm_ = eval::shipped_harm();
   SteadyClock clock_;
   runtime::PlanesSetup planes_{.forecast = {&car_, &harm_}, .clock = &clock_};
 };
@@ -298,4 +298,4 @@ TEST_F(Shadow, WantsCarAndModelAndTime) {
 }
 
 }  // namespace
-}  // namespace saca::eval::shadow_test
+}  // namespace saca::suites::shadow_test

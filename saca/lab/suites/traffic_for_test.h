@@ -24,19 +24,19 @@ inline DriveToWatch made_drive(std::string source, std::string name) {
 /// needed at another, before which SACA acted; half an hour of "us101" over 30 km without an event;
 /// and one drive of it that could not be watched.
 inline WatchedTraffic made_traffic() {
-  const eval::ShadowTrigger braked{.time = 1.25,
-                                   .who = "car1",
-                                   .time_to_conflict = 1.29,
-                                   .speed = 15.0,
-                                   .judgement = {.driver_deceleration = 4.5,
-                                                 .needed_deceleration = 3.25,
-                                                 .least_gap = 0.5,
-                                                 .reason = eval::ShadowReason::driver_braked}};
-  const eval::ShadowTrigger needless{.time = 4.5,
-                                     .who = "van1",
-                                     .time_to_conflict = 0.5,
-                                     .speed = 3.0,
-                                     .judgement = {.needed_deceleration = std::nullopt}};
+  const ShadowTrigger braked{.time = 1.25,
+                             .who = "car1",
+                             .time_to_conflict = 1.29,
+                             .speed = 15.0,
+                             .judgement = {.driver_deceleration = 4.5,
+                                           .needed_deceleration = 3.25,
+                                           .least_gap = 0.5,
+                                           .reason = eval::ShadowReason::driver_braked}};
+  const ShadowTrigger needless{.time = 4.5,
+                               .who = "van1",
+                               .time_to_conflict = 0.5,
+                               .speed = 3.0,
+                               .judgement = {.needed_deceleration = std::nullopt}};
   WatchedTraffic traffic;
   traffic.drives = {made_drive("i80", "a"), made_drive("us101", "b"), made_drive("us101", "c")};
   traffic.rows = {{.source = "i80",

@@ -4,8 +4,6 @@ namespace saca::suites {
 namespace {
 
 using eval::Rate;
-using eval::ShadowCounts;
-using eval::ShadowFigures;
 using nlohmann::json;
 
 void add_rate(json& out, const std::string& name, const Rate& rate) {
@@ -61,9 +59,9 @@ json traffic_json(const WatchedTraffic& traffic, const TrafficWatch& watch,
            {"meta.n", std::to_string(traffic.rows.size())},
            {"meta.car", watch.car},
            {"meta.version", version}};
-  add_shadow_figures(out, "traffic.", eval::shadow_figures(traffic.rows, ""));
+  add_shadow_figures(out, "traffic.", shadow_figures(traffic.rows, ""));
   for (const std::string& source : sources_of(traffic)) {
-    add_shadow_figures(out, "traffic." + source + ".", eval::shadow_figures(traffic.rows, source));
+    add_shadow_figures(out, "traffic." + source + ".", shadow_figures(traffic.rows, source));
   }
   return out;
 }

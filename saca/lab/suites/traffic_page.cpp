@@ -12,10 +12,7 @@
 namespace saca::suites {
 namespace {
 
-using eval::ShadowFigures;
 using eval::ShadowReason;
-using eval::ShadowRow;
-using eval::ShadowTrigger;
 
 constexpr std::size_t most_cards = 150;    // of a page: some 40 kB each
 constexpr std::size_t most_left_out = 20;  // reasons told one by one
@@ -35,7 +32,7 @@ std::string needed_text(const std::optional<double>& deceleration) {
 /// A trigger, or SACA begins to act.
 struct TriggerRow {
   const ShadowTrigger* trigger = nullptr;
-  const eval::ShadowIntervention* begun = nullptr;  ///< nullptr: a trigger alone
+  const ShadowIntervention* begun = nullptr;  ///< nullptr: a trigger alone
   const DriveToWatch* drive = nullptr;
 
   /// "T1 has come", "SACA begins AEB before T1".
@@ -49,7 +46,7 @@ struct TriggerRow {
 std::vector<TriggerRow> triggers_of(const WatchedTraffic& traffic) {
   std::vector<TriggerRow> all;
   for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
-    for (const eval::ShadowIntervention& begun : traffic.rows[k].watched.interventions) {
+    for (const ShadowIntervention& begun : traffic.rows[k].watched.interventions) {
       all.push_back({&begun.trigger, &begun, &traffic.drives[k]});
     }
   }
@@ -110,9 +107,9 @@ report::PageTable rates_table(const WatchedTraffic& traffic) {
          .shades = {}});
   };
   for (const std::string& source : sources_of(traffic)) {
-    add(source, eval::shadow_figures(traffic.rows, source));
+    add(source, shadow_figures(traffic.rows, source));
   }
-  add("all", eval::shadow_figures(traffic.rows, ""));
+  add("all", shadow_figures(traffic.rows, ""));
   return table;
 }
 
@@ -149,7 +146,7 @@ std::optional<report::GalleryCard> card_of_trigger(const TriggerRow& one, const 
   }
   const ShadowTrigger& trigger = *one.trigger;
   const eval::ShadowJudgement& told = trigger.judgement;
-  const eval::ShadowPicture picture = eval::shadow_picture(
+  const ShadowPicture picture = shadow_picture(
       ego.value().scenario,
       {.car = tools.car, .intent = tools.intent, .thresholds = {}, .saca = nullptr}, trigger);
   report::GalleryCard card{
@@ -179,7 +176,7 @@ std::optional<report::GalleryCard> card_of_trigger(const TriggerRow& one, const 
 }
 
 std::string rate_sentence(const WatchedTraffic& traffic) {
-  const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
+  const ShadowFigures all = shadow_figures(traffic.rows, "");
   return fmt::format(
       "SACA watched {:.2f} hours and {:.1f} km of recorded driving ({} drives) without taking the "
       "wheel. {} times a conflict came within T1: {} times there was danger by the rule below, {} "

@@ -5,9 +5,6 @@
 namespace saca::suites {
 namespace {
 
-using eval::ShadowCounts;
-using eval::ShadowFigures;
-
 std::string source_line(const std::string& source, const ShadowFigures& one) {
   return fmt::format("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:24} {:8} {:6} {:24}\n", source,
                      one.drives, one.hours, one.kilometres, one.previews_per_hour.count,
@@ -33,7 +30,7 @@ std::string with_bounds(const eval::Rate& rate) {
 }
 
 std::string traffic_text(const WatchedTraffic& traffic) {
-  const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
+  const ShadowFigures all = shadow_figures(traffic.rows, "");
   std::string text =
       fmt::format("SACA in shadow: {} of {} recorded drives; rates with exact 95 % intervals\n\n",
                   traffic.rows.size(), traffic.found);
@@ -41,7 +38,7 @@ std::string traffic_text(const WatchedTraffic& traffic) {
                       "source", "drives", "h", "km", "previews", "triggers", "false", "per h",
                       "SACA acts", "false", "per h");
   for (const std::string& source : sources_of(traffic)) {
-    text += source_line(source, eval::shadow_figures(traffic.rows, source));
+    text += source_line(source, shadow_figures(traffic.rows, source));
   }
   text += source_line("all", all);
   text += fmt::format("\n{} of the times that SACA acts come before T1.\n", all.early);

@@ -13,8 +13,6 @@
 namespace saca::suites {
 namespace {
 
-using eval::ShadowRow;
-
 constexpr std::size_t drives_per_thread = 8;  // between two looks at the signals
 
 /// A row, whatever happens.
@@ -27,7 +25,7 @@ ShadowRow watched_row(const DriveToWatch& drive, const WatchTools& tools,
       row.left_out = ego.error().message;
       return row;
     }
-    auto watched = eval::shadow_drive(
+    auto watched = shadow_drive(
         ego.value().scenario,
         {.car = tools.car, .intent = tools.intent, .thresholds = thresholds, .saca = tools.saca},
         ego.value().window);
@@ -44,7 +42,7 @@ ShadowRow watched_row(const DriveToWatch& drive, const WatchTools& tools,
 
 /// A line of a journal, if it is of this drive.
 Result<ShadowRow> row_of_drive(const std::string& line, const DriveToWatch& drive) {
-  auto row = eval::shadow_row_from(line);
+  auto row = shadow_row_from(line);
   if (row.has_value() && (row.value().source != drive.source || row.value().drive != drive.name)) {
     return Error{Error::Code::malformed, "another drive's"};
   }
@@ -87,7 +85,7 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& watch,
        .at_once = drives_per_thread * static_cast<std::size_t>(watch.threads),
        .row =
            [&](std::size_t k) { return watched_row(traffic.drives[k], tools, watch.thresholds); },
-       .line_of = [](const ShadowRow& row) { return eval::line_of(row); },
+       .line_of = [](const ShadowRow& row) { return suites::line_of(row); },
        .row_from =
            [&, k = std::size_t{0}](const std::string& line) mutable {
              return row_of_drive(line, traffic.drives[k++]);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "saca/lab/eval/shadow_rows.h"
 #include "saca/lab/long_work/progress.h"
 #include "saca/lab/suites/recorded_drives.h"
+#include "saca/lab/suites/shadow_rows.h"
 #include "saca/onboard/reflex/trigger.h"
 
 namespace saca::suites {
@@ -32,10 +32,10 @@ struct WatchTools {
 
 /// What was watched.
 struct WatchedTraffic {
-  std::vector<DriveToWatch> drives;   ///< as many as rows
-  std::vector<eval::ShadowRow> rows;  ///< in the order of the drives
-  std::size_t found = 0;              ///< drives that there were to draw from
-  std::vector<std::string> notes;     ///< on the data: what was passed over
+  std::vector<DriveToWatch> drives;  ///< as many as rows
+  std::vector<ShadowRow> rows;       ///< in the order of the drives
+  std::size_t found = 0;             ///< drives that there were to draw from
+  std::vector<std::string> notes;    ///< on the data: what was passed over
 };
 
 /// Reads the folders and watches, with progress on the error stream and a journal that the same

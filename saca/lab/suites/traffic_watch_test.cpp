@@ -60,7 +60,7 @@ TEST_F(TrafficWatchTest, GivesARowForEachDriveAndKeepsIt) {
               HasSubstr("saca 1.2 suite traffic, compact_rwd_ev, seed 1, count 1000, T1 1.3 s, T2 "
                         "5.5 s, danger from 4 and 3 m/s^2 on, data "));
   const auto again = watched();
-  EXPECT_EQ(eval::line_of(again.value().value().rows[0]), eval::line_of(traffic.rows[0]));
+  EXPECT_EQ(line_of(again.value().value().rows[0]), line_of(traffic.rows[0]));
 }
 
 TEST_F(TrafficWatchTest, AJournalOfAnotherDriveIsRefused) {
