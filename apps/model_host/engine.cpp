@@ -326,8 +326,10 @@ struct Engine::State {
     }
     for (const auto& [thought, at] : running) {
       ++thought->position;
-      thought->next = chosen(*thought, at);
       thought->reasoning = thought->end != AnswerKind::ended;
+      if (thought->reasoning) {
+        thought->next = chosen(*thought, at);
+      }
     }
     return true;
   }

@@ -59,8 +59,8 @@ constexpr std::size_t max_scenes = language_model::most_scenes;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
 /// A language model in this process, through llama.cpp. The same weights, system part, scenes,
-/// sampling seed and order of calls give the same text; the deadline decides only where it is cut.
-/// Where it gives way, the last bits of a probability may differ.
+/// grammars, sampling seed and order of calls give the same text; the deadline decides only where
+/// it is cut. Where it gives way, the last bits of a probability may differ.
 class Engine {
  public:
   /// @return  Error::Code::unreadable or malformed, naming the file

@@ -13,7 +13,9 @@
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
 #include "saca/thinking/language_model/example_situation.h"
 #include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/reply_grammar.h"
 #include "saca/thinking/language_model/token_bound.h"
+#include "saca/thinking/language_model/truth.h"
 
 namespace saca::model_host::host_test {
 namespace {
@@ -144,6 +146,21 @@ TEST_F(HostTest, AReplyKeepsToItsGrammar) {
   ASSERT_FALSE(refused.has_value());
   EXPECT_NE(refused.error().message.find("grammar"), std::string::npos) << refused.error().message;
   EXPECT_EQ(model.restarts(), 0);
+}
+
+// The grammar that SACA gives is one that the library reads; what comes of it is true.
+TEST_F(HostTest, AReplyHeldToWhatIsTrueIsTrue) {
+  constexpr int most = 112;
+  language_model::ChildModel model(settings(most), clock_);
+  const auto replies =
+      model.ask({scene_}, clock_.now() + patience, nobody_,
+                {.grammars = {language_model::reply_grammar(situation_, scene_, std::nullopt)}});
+  ASSERT_TRUE(replies.has_value()) << replies.error().message;
+  const language_model::Reply& reply = replies.value()[0];
+  EXPECT_EQ(reply.answers.back().kind, Answer::Kind::ended) << reply.reasoning;
+  const language_model::Truth truth = language_model::truth_of(reply, scene_, situation_);
+  EXPECT_GE(truth.num_checked, 1);
+  EXPECT_TRUE(truth.wrong.empty()) << reply.reasoning;
 }
 
 // Shared prefix or not, alone or beside others: a scene's first answer is its own.

@@ -22,7 +22,8 @@ class TokenChoice {
                                                 const std::string& grammar, int seed);
 
   /// The next token of the text.
-  /// @param logits  of every token; the end of the text where the grammar allows nothing
+  /// @param logits  of every token
+  /// @return        the end of the text where the grammar allows nothing
   [[nodiscard]] llama_token next(const float* logits);
 
  private:

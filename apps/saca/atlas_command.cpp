@@ -14,6 +14,7 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/vehicle_study/atlas_check_run.h"
@@ -190,9 +191,7 @@ void add_atlas(CLI::App& line, int& exit_code) {
       "build", "Drive them with full physics and keep them in a file; can be interrupted");
   add_common(*make, *options);
   make->add_option("--output", options->file, usual_file);
-  make->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*make, options->threads);
   make->callback([options, &exit_code] { exit_code = build(*options); });
 
   CLI::App* const carried = command->add_subcommand(
@@ -218,9 +217,7 @@ void add_atlas(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   compare->add_option("--seed", options->seed, "Of the samples; default: calibration's");
-  compare->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*compare, options->threads);
   compare->add_flag("--json", options->as_json, "For programs");
   compare->callback([options, &exit_code] { exit_code = check(*options); });
 }

@@ -10,6 +10,7 @@
 #include "apps/saca/figures_output.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/cases/case_set.h"
 #include "saca/lab/cases/case_tally.h"
@@ -145,9 +146,7 @@ void add_cases_build(CLI::App& cases, int& exit_code) {
                       "of what was best: for saca-train-imitator, not for a memory");
   command->add_option("--journal", options->journal,
                       "What was found so far (default: beside the output)");
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = build_cases(*options); });
 }

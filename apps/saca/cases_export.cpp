@@ -9,6 +9,7 @@
 #include "apps/saca/example_options.h"
 #include "apps/saca/figures_output.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/cases/example_sets.h"
 #include "saca/lab/long_work/interrupt.h"
@@ -84,9 +85,7 @@ void add_cases_export(CLI::App& cases, int& exit_code) {
       ->capture_default_str();
   command->add_option("--output,-o", options->output, "The folder where the sets go")
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = export_cases(*options); });
 }

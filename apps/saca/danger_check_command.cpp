@@ -9,6 +9,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/stopped.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/danger_study/check_report.h"
@@ -72,9 +73,7 @@ void add_danger_check(CLI::App& danger, int& exit_code) {
       ->check(CLI::Range(2, 10'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed)->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the figures")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads, "They do not change the figures");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = check_danger(*options); });
 }

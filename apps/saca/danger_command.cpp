@@ -15,6 +15,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/stopped.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/danger_study/danger_model.h"
@@ -130,9 +131,7 @@ void add_danger(CLI::App& line, int& exit_code) {
       ->add_flag("--outcomes", options->outcomes,
                  "All drives by their Q to the end: what it comes to")
       ->needs("--by");
-  dataset->add_option("--threads", options->threads, "They do not change what is made")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*dataset, options->threads, "They do not change what is made");
   dataset->add_flag("--json", options->as_json, "For programs");
   dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
   add_danger_check(*command, exit_code);

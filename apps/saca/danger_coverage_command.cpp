@@ -10,6 +10,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/stopped.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/danger_study/coverage_report.h"
 #include "saca/lab/danger_study/danger_model.h"
@@ -86,9 +87,7 @@ void add_danger_coverage(CLI::App& danger, int& exit_code) {
   command->add_option("--among", options->others, "Likewise, among which they are looked for")
       ->check(CLI::Range(static_cast<int>(CoverageSurvey::num_alike), 10'000'000))
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the figures")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads, "They do not change the figures");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = tell_coverage(*options); });
 }

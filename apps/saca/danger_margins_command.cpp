@@ -10,6 +10,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/stopped.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/file.h"
 #include "saca/base/core/parallel.h"
 #include "saca/base/formats/tensors.h"
@@ -85,9 +86,7 @@ void add_danger_margins(CLI::App& danger, int& exit_code) {
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed)->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the margins")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads, "They do not change the margins");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = fit_margins(*options); });
 }

@@ -111,9 +111,7 @@ void add_drive(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->question.seed, "Of the draws")->capture_default_str();
-  command->add_option("--threads", options->question.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->question.threads);
   command->add_option("--report", options->report, "Write an HTML page that shows it");
   command->add_flag("--json", options->as_json, "Print the record, for programs");
   command->callback([options, &exit_code] { exit_code = drive(*options); });

@@ -10,6 +10,7 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/surveying.h"
+#include "apps/saca/within.h"
 #include "saca/lab/forecast_study/figures_report.h"
 #include "saca/lab/forecast_study/forecast_figures.h"
 #include "saca/lab/forecast_study/suite_forecasts.h"
@@ -117,9 +118,7 @@ void add_forecast_eval(CLI::App& forecast, int& exit_code) {
       "Of 100car the folder of the study's release; of traffic folders with CommonRoad files, of "
       "each site at most --count drives");
   command->add_option("--output", from.output, "The figures as JSON, besides");
-  command->add_option("--threads", from.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, from.threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

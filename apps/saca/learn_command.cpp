@@ -16,6 +16,7 @@
 #include "apps/saca/settings.h"
 #include "apps/saca/suite_running.h"
 #include "apps/saca/version.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/journal.h"
 #include "saca/lab/banks/bank_files.h"
 #include "saca/lab/curricula/bank_place.h"
@@ -238,9 +239,7 @@ void add_learn(CLI::App& line, int& exit_code) {
   command->add_option("-o,--output", learn.folder,
                       "The folder for banks and journal (default: runs/learn-...)");
   command->add_option("--svg", options->svg, "Draw how regret and memory change");
-  command->add_option("--threads", from.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, from.threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

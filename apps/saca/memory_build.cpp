@@ -13,6 +13,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
 #include "apps/saca/version.h"
+#include "apps/saca/within.h"
 #include "saca/lab/banks/case_build.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
@@ -102,9 +103,7 @@ void add_memory_build(CLI::App& memory, int& exit_code) {
   command->add_option("--output,-o", from.output, "Where the cases go")->capture_default_str();
   command->add_option("--journal", from.journal,
                       "What was found so far (default: beside the output)");
-  command->add_option("--threads", from.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, from.threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = build(*options); });
 }

@@ -7,6 +7,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/banks/recall_calibration.h"
@@ -98,9 +99,7 @@ void add_memory_calibrate(CLI::App& memory, int& exit_code) {
       ->check(CLI::Range(10, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of what is drawn")->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = calibrate(*options); });
 }

@@ -8,6 +8,7 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/banks/bank_check.h"
 #include "saca/lab/banks/bank_files.h"
@@ -73,9 +74,7 @@ void add_memory_check(CLI::App& memory, int& exit_code) {
   command->add_option("--draws", options->draws, "That expected harm is the mean of")
       ->check(CLI::Range(1, 1'000))
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--quarantined", options->quarantined,
                     "Also what is in quarantine: what holds over draws is served again");
   command->add_flag("--json", options->as_json, "For programs");

@@ -7,6 +7,7 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/moment_option.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/policy_study/oracle_report.h"
@@ -83,9 +84,7 @@ void add_oracle(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Same seed, same figures")->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_option("--svg", options->svg, "Draw the best plan of each policy, as written");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -8,6 +8,7 @@
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/prepare/car_file.h"
 #include "saca/lab/vehicle_study/drift_table.h"
@@ -109,9 +110,7 @@ void add_physics(CLI::App& line, int& exit_code) {
   command->add_option("--car", options->cars, "Cars of that table: files, or names of shipped ones")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of the draws")->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = physics(*options); });
 }

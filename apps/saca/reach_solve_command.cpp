@@ -101,9 +101,7 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
       ->check(within(0.01, 1.0))
       ->capture_default_str();
   command->add_flag("--double", options->scheme.doubles, "In doubles; default: floats");
-  command->add_option("--threads", options->scheme.threads)
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->scheme.threads, "");
   command->add_option("--memory-mib", options->memory_mib, "Refuse what takes more")
       ->check(within(0.001, 1e9));
   command->add_flag("--without-error", options->without_error,

@@ -13,6 +13,7 @@
 #include "apps/saca/surveying.h"
 #include "apps/saca/thresholds_options.h"
 #include "apps/saca/version.h"
+#include "apps/saca/within.h"
 #include "saca/lab/learned_danger/learned.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/suites/method_list.h"
@@ -138,9 +139,7 @@ void add_suite_options(CLI::App& command, suites::SuiteRequest& options) {
                    "Nothing is left to chance, and perception is as the scenarios have it");
   command.add_option("--output", options.output,
                      "Rows as HDF5; beside them .json and .html (default: runs/...)");
-  command.add_option("--threads", options.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(command, options.threads);
 }
 
 }  // namespace saca::app

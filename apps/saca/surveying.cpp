@@ -90,9 +90,7 @@ void add_survey_options(CLI::App& command, SurveyOptions& options) {
   add_draw_options(command, options.count, options.split, options.test_log, options.car);
   command.add_option("--journal", options.journal,
                      "What was found so far (default: runs/survey-SUITE-SPLIT.journal)");
-  command.add_option("--threads", options.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(command, options.threads);
 }
 
 }  // namespace saca::app

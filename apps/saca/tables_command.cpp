@@ -183,9 +183,7 @@ void add_tables(CLI::App& line, int& exit_code) {
   command->add_option("--seed", tables.seed, "Of all that is drawn")->capture_default_str();
   command->add_option("--output", tables.output, "Folder for the page and the rows")
       ->capture_default_str();
-  command->add_option("--threads", tables.threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, tables.threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

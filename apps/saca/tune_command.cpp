@@ -10,6 +10,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
@@ -141,9 +142,7 @@ void add_tune(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Same seed, same tuning")->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = tune_car(*options); });
 }

@@ -10,6 +10,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/within.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/policy_study/whatif_cells.h"
@@ -101,9 +102,7 @@ void add_whatif(CLI::App& line, int& exit_code) {
       ->type_size(1);
   add_at(*command, options->at);
   command->add_option("--svg", options->svg, "The map")->capture_default_str();
-  command->add_option("--threads", options->threads, "They do not change the result")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] {
     if (options->vary.size() > 2) {

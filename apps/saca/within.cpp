@@ -40,6 +40,10 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return {complaint, description};
 }
 
+void add_threads(CLI::App& command, int& threads, const std::string& what) {
+  command.add_option("--threads", threads, what)->check(CLI::Range(1, 256))->capture_default_str();
+}
+
 CLI::Option* add_policy(CLI::App& command, std::optional<manoeuvre::PolicyId>& policy,
                         const std::string& what) {
   std::vector<std::string> names;

@@ -19,6 +19,10 @@ namespace saca::app {
 /// For an option's `check`: one of these words. The refusal tells which was likely meant.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
 
+/// The option `--threads`.
+void add_threads(CLI::App& command, int& threads,
+                 const std::string& what = "They do not change the result");
+
 /// The option `--policy`: a number or a short name of the paper, in any case.
 CLI::Option* add_policy(CLI::App& command, std::optional<manoeuvre::PolicyId>& policy,
                         const std::string& what);

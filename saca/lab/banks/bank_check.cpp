@@ -74,20 +74,20 @@ Result<BankCheck> check(ReadBank& bank, const CaseTools& tools, const BankCheckO
   BankCheck counts{.bank = bank.store.name()};
   for (std::size_t first = 0; first < cases.size() && !long_work::interrupted();
        first += checked_at_once) {
-    std::vector<std::optional<memory::Case>> checked(
+    std::vector<std::optional<memory::Case>> results(
         std::min(checked_at_once, cases.size() - first));
-    in_parallel(checked.size(), options.threads, [&](std::size_t i) {
-      checked[i] = banks::checked(cases[first + i], tools.forecast, *tools.intent, tools.draws,
-                                  tools.made_with);
+    in_parallel(results.size(), options.threads, [&](std::size_t i) {
+      results[i] =
+          checked(cases[first + i], tools.forecast, *tools.intent, tools.draws, tools.made_with);
     });
-    for (std::size_t i = 0; i < checked.size(); ++i) {
-      const auto trust = keep_checked(bank.store, cases[first + i], checked[i]);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const auto trust = keep_checked(bank.store, cases[first + i], results[i]);
       if (!trust.has_value()) {
         return trust.error();
       }
       count_trust(counts, trust.value());
     }
-    progress.show(static_cast<int>(first + checked.size()), 0, " cases");
+    progress.show(static_cast<int>(first + results.size()), 0, " cases");
   }
   return counts;
 }

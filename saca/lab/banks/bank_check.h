@@ -37,7 +37,7 @@ struct BankCheckOptions {
                                                        const CaseTools& tools,
                                                        Quarantined quarantined);
 
-/// Rolls out what is not trusted (checked) and keeps in the bank what is known from now on,
+/// Rolls out what is not trusted (case_check.h) and keeps in the bank what is known from now on,
 /// with progress on the error stream. It ends early at an interrupt; what was worked out is kept.
 /// A case that another process has changed meanwhile stays as it is.
 /// @return  what the bank could not do

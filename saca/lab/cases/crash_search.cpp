@@ -1,6 +1,5 @@
 #include "saca/lab/cases/crash_search.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "saca/lab/cases/drawn_examples.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 

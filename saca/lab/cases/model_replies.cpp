@@ -34,14 +34,14 @@ ReplyRow asked_about(DrawnExamples drawn, const ReplyWork& work,
   if (drawn.examples.empty()) {
     return row;
   }
-  language_model::Question put;
+  language_model::Question question;
   for (const DrawnExample& each : drawn.examples) {
-    put.scenes.push_back(each.example.prompt);
-    put.grammars.push_back(work.constrained ? each.grammar() : "");
+    question.scenes.push_back(each.example.prompt);
+    question.grammars.push_back(work.constrained ? each.grammar() : "");
   }
   const auto replies =
-      model.ask(put.scenes, clock.now() + patience_with_model,
-                [](const language_model::Progress&) {}, {.grammars = put.grammars});
+      model.ask(question.scenes, clock.now() + patience_with_model,
+                [](const language_model::Progress&) {}, {.grammars = question.grammars});
   const std::string record = drawn.examples.front().example.record;
   const auto note = [&](const Error& problem) {
     row.problem = record + ": " + problem.message;

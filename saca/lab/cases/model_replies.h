@@ -30,7 +30,8 @@ struct ReplyWork {
   std::string title;    ///< of the journal: program and command
   long_work::ProgressDisplay display = long_work::ProgressDisplay::shown;
   std::uint64_t words = 1;  ///< seed of the expert's words
-  /// Replies may say what is true (language_model::reply_grammar), else anything.
+  /// true: replies are held to what is true while they are written
+  /// (language_model::reply_grammar); false: anything may be written.
   bool constrained = true;
 };
 

@@ -96,5 +96,18 @@ TEST_F(Asking, WhatIsNoAnswerIsAProblemOfTheCase) {
   EXPECT_THAT(all.problems, ElementsAre("fars_2016_40001: no answer"));
 }
 
+// A model that answers nothing is not asked again: the grammars are those of the first question.
+TEST_F(Asking, HoldsRepliesToWhatIsTrueUnlessToldNotTo) {
+  ScriptedModel model(ScriptedReply{.error = Error{Error::Code::malformed, "no answer"}}, clock_);
+  ASSERT_TRUE(model_replies(source_, model, clock_, work_).has_value());
+  EXPECT_FALSE(model.last_grammars().empty());
+  EXPECT_THAT(model.last_grammars(), testing::Each(testing::StartsWith("root ::= ")));
+  std::filesystem::remove_all(work_.journal);
+  work_.constrained = false;
+  ASSERT_TRUE(model_replies(source_, model, clock_, work_).has_value());
+  EXPECT_FALSE(model.last_grammars().empty());
+  EXPECT_THAT(model.last_grammars(), testing::Each(std::string()));
+}
+
 }  // namespace
 }  // namespace saca::cases::model_replies_test

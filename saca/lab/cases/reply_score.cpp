@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "saca/base/core/contract.h"
@@ -265,8 +264,8 @@ ExampleReply example_reply(ReplyExample example, const language_model::Reply& re
 std::optional<Error> try_again(ExampleReply& reply, const preview::Situation& situation,
                                language_model::LanguageModel& model, const Clock& clock,
                                const ChoiceGrammar& grammar) {
-  if (!reply.last) {
-    return std::nullopt;  // there is no choice to give reasons for
+  if (!reply.last || reply.shown != language_model::Explanation::From::facts) {
+    return std::nullopt;  // there is no choice to give reasons for, or its reasons hold
   }
   const auto told = language_model::told_again(
       model, clock, reply.example.prompt, {.text = {}, .from = reply.shown},

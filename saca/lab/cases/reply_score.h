@@ -45,13 +45,13 @@ struct ExampleReply {
 [[nodiscard]] ExampleReply example_reply(ReplyExample example, const language_model::Reply& reply,
                                          const preview::Situation& situation);
 
-/// What a text may say that comes to a policy (language_model::reply_grammar); empty: anything.
+/// The grammar of texts that end with this policy (language_model::reply_grammar); empty: none.
 using ChoiceGrammar = std::function<std::string(manoeuvre::PolicyId)>;
 
 /// Asks the model again where its words would not be shown: sets `shown_at_last` and `tries`.
 /// Without a last answer there is nothing to be shown.
 /// @param situation  that the example's prompt is about
-/// @param grammar    what its words may be where they come to a policy (AskOptions)
+/// @param grammar    of what it may write (AskOptions)
 /// @return           the model's error
 [[nodiscard]] std::optional<Error> try_again(ExampleReply& reply,
                                              const preview::Situation& situation,

@@ -15,19 +15,19 @@ using language_model::Reply;
 Result<std::vector<Reply>> replies_about(const std::vector<Preview>& previews,
                                          language_model::LanguageModel& model, Clock::Time patience,
                                          const Clock& clock, const TextListener& listener) {
-  language_model::Question put;
+  language_model::Question question;
   for (const Preview& preview : previews) {
-    put.scenes.push_back(preview.prompt);
-    put.grammars.push_back(arbitration::grammar_of(preview));
+    question.scenes.push_back(preview.prompt);
+    question.grammars.push_back(arbitration::grammar_of(preview));
   }
   const Clock::Time begin = clock.now();
-  auto replies = model.ask(put.scenes, begin + patience,
+  auto replies = model.ask(question.scenes, begin + patience,
                            [&](const language_model::Progress& news) {
                              if (!news.text.empty()) {
                                listener(news.prompt, news.text);
                              }
                            },
-                           {.grammars = put.grammars});
+                           {.grammars = question.grammars});
   if (!replies.has_value()) {
     return replies.error();
   }

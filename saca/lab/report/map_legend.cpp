@@ -24,8 +24,8 @@ std::string count_words(std::ptrdiff_t count, std::size_t all) {
 
 int area_key(const MapCell& cell) {
   return cell.verdict == MapVerdict::decided   ? static_cast<int>(manoeuvre::index(cell.best))
-         : cell.verdict == MapVerdict::no_risk ? 8
-                                               : 9;
+         : cell.verdict == MapVerdict::no_risk ? no_risk_key
+                                               : no_scene_key;
 }
 
 bool refuses(const MapCell& cell, PolicyId policy) {
@@ -96,10 +96,10 @@ void MapLegend::verdicts(std::span<const MapCell> cells) {
              count_words(n, cells.size()));
     }
   }
-  if (const auto n = count(8); n > 0) {
+  if (const auto n = count(no_risk_key); n > 0) {
     swatch({"no-risk"}, "no risk", count_words(n, cells.size()));
   }
-  if (const auto n = count(9); n > 0) {
+  if (const auto n = count(no_scene_key); n > 0) {
     swatch({"unplayable"}, "no such scene", count_words(n, cells.size()));
   }
 }

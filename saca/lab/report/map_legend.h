@@ -13,8 +13,10 @@ namespace saca::report {
 constexpr double map_border = 16.0;     ///< around a map and what stands beside it [px]
 constexpr double legend_width = 196.0;  ///< [px]
 
-/// Cells of one key look alike and belong to one area: 0 to 7 a policy that is best, 8 no risk, 9
-/// no such scene.
+/// Cells of one key look alike and belong to one area: the number of the policy that is best, or
+/// one of these.
+constexpr int no_risk_key = 8;
+constexpr int no_scene_key = 9;
 [[nodiscard]] int area_key(const MapCell& cell);
 /// Whether there is such a scene, and the policy cannot be driven in it.
 [[nodiscard]] bool refuses(const MapCell& cell, manoeuvre::PolicyId policy);

@@ -33,13 +33,13 @@ Ending ridden(manoeuvre::Ride ride, double horizon, const Look& look) {
 }  // namespace
 
 Ending ride_to_end(manoeuvre::Ride ride, double horizon) {
-  return ridden(std::move(ride), horizon, [](int, const manoeuvre::Ride&) {});
+  return ridden(ride, horizon, [](int, const manoeuvre::Ride&) {});
 }
 
 Ending ride_along_path(manoeuvre::Ride ride, double horizon) {
   constexpr int steps_per_pose = 50;
   std::vector<Pose> path;
-  Ending ending = ridden(std::move(ride), horizon, [&](int step, const manoeuvre::Ride& now) {
+  Ending ending = ridden(ride, horizon, [&](int step, const manoeuvre::Ride& now) {
     if (step % steps_per_pose == 0) {
       path.push_back(now.state().X_WB);
     }
@@ -61,10 +61,10 @@ std::vector<Ending> draw_endings(const manoeuvre::Car& car, const manoeuvre::Pla
   }
   std::vector<Ending> endings(perturbation.size());
   in_parallel(endings.size(), draws.threads, [&](std::size_t i) {
-    manoeuvre::Ride ride(car, plan, scene, draws.grip, perturbation[i]);
+    const manoeuvre::Ride ride(car, plan, scene, draws.grip, perturbation[i]);
     endings[i] = i < static_cast<std::size_t>(draws.with_paths)
-                     ? ride_along_path(std::move(ride), draws.horizon)
-                     : ride_to_end(std::move(ride), draws.horizon);
+                     ? ride_along_path(ride, draws.horizon)
+                     : ride_to_end(ride, draws.horizon);
   });
   return endings;
 }

@@ -16,7 +16,8 @@ struct Ending {
   std::vector<Pose> path;  ///< X_WB every 50 ms from the start to the end; empty unless asked for
 };
 
-/// Rides to the end of the manoeuvre, or for `horizon` [s]. Without its path.
+/// Rides to the end of the manoeuvre or for `horizon` [s], whichever comes first. `path` stays
+/// empty.
 [[nodiscard]] Ending ride_to_end(manoeuvre::Ride ride, double horizon);
 /// The same, with its path.
 [[nodiscard]] Ending ride_along_path(manoeuvre::Ride ride, double horizon);

@@ -102,7 +102,8 @@ std::optional<language_model::Explanation> retold(const Preview& preview,
                                                   const Clock& clock, const std::stop_token& stop) {
   auto first = explanation(preview);
   const auto chosen = explained_policy(preview);
-  if (!first || !chosen || preview.reply.answers.empty()) {
+  if (!first || first->from != language_model::Explanation::From::facts || !chosen ||
+      preview.reply.answers.empty()) {
     return first;
   }
   const auto again = language_model::told_again(

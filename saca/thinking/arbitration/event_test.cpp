@@ -63,6 +63,7 @@ TEST(Event, ReasonsThatDoNotHoldAreToldAgainByTheModel) {
   EXPECT_EQ(explanation(preview)->from, language_model::Explanation::From::facts);
   preview.retold = retold(preview, model, clock);
   EXPECT_EQ(model.last_scenes(), std::vector{preview.prompt});
+  EXPECT_EQ(model.last_grammars(), std::vector{grammar_of(preview, manoeuvre::PolicyId::aeb)});
   EXPECT_EQ(explanation(preview)->from, language_model::Explanation::From::model);
   EXPECT_EQ(explanation(preview)->tries, 2);
 }

@@ -328,7 +328,7 @@ bool ThinkingPlane::is_outdated(const Round& round, const std::vector<std::size_
 }
 
 language_model::Question ThinkingPlane::write_question(const std::vector<std::size_t>& which) {
-  language_model::Question put;
+  language_model::Question question;
   for (const std::size_t i : which) {
     Preview& preview = previews_[i];
     preview.prompt = prompt_of(preview);
@@ -338,13 +338,13 @@ language_model::Question ThinkingPlane::write_question(const std::vector<std::si
     if (!tools_.asking.risks) {
       preview.prompt = language_model::without_risks(preview.prompt);
     }
-    put.scenes.push_back(preview.prompt);
-    put.grammars.push_back(grammar_of(preview));
+    question.scenes.push_back(preview.prompt);
+    question.grammars.push_back(grammar_of(preview));
   }
-  return put;
+  return question;
 }
 
-void ThinkingPlane::hear(const Question& question, const language_model::Progress& news) {
+void ThinkingPlane::hear(const OpenQuestion& question, const language_model::Progress& news) {
   Preview& preview = previews_[question.which[news.prompt]];
   if (!tools_.asking.reasoning && !preview.reply.answers.empty()) {
     return;  // the first answer stands
@@ -360,7 +360,7 @@ void ThinkingPlane::hear(const Question& question, const language_model::Progres
   }
 }
 
-void ThinkingPlane::take_replies(const Question& question,
+void ThinkingPlane::take_replies(const OpenQuestion& question,
                                  const std::vector<language_model::Reply>& replies) {
   for (std::size_t k = 0; k < replies.size() && k < question.which.size(); ++k) {
     Preview& preview = previews_[question.which[k]];
@@ -375,7 +375,7 @@ void ThinkingPlane::take_replies(const Question& question,
   }
 }
 
-void ThinkingPlane::ask_again_later(const Question& question, double missed) {
+void ThinkingPlane::ask_again_later(const OpenQuestion& question, double missed) {
   for (const std::size_t i : question.which) {
     previews_[i].unheard = !previews_[i].plan;
     previews_[i].missed = missed;
@@ -383,12 +383,12 @@ void ThinkingPlane::ask_again_later(const Question& question, double missed) {
 }
 
 void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
-  const language_model::Question put = write_question(which);
+  const language_model::Question asked = write_question(which);
   double left = std::numeric_limits<double>::infinity();
   for (const std::size_t i : which) {
     left = std::min(left, time_left(round, previews_[i].newest_scene));
   }
-  const Question question{round, which, round.now()};
+  const OpenQuestion question{round, which, round.now()};
   tell(round, EventKind::ask,
        fmt::format("the model is asked about {} forecast{}, {:.1f} s left", which.size(),
                    which.size() == 1 ? "" : "s", left));
@@ -409,8 +409,8 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     }
   };
   const auto replies =
-      tools_.model->ask(put.scenes, round.clock_at(question.asked_at + left), progress,
-                        {.stop = withdrawn.get_token(), .grammars = put.grammars});
+      tools_.model->ask(asked.scenes, round.clock_at(question.asked_at + left), progress,
+                        {.stop = withdrawn.get_token(), .grammars = asked.grammars});
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }

@@ -101,7 +101,7 @@ class ThinkingPlane {
  private:
   struct Round;
   /// To the model, about several previews.
-  struct Question {
+  struct OpenQuestion {
     const Round& round;
     const std::vector<std::size_t>& which;  ///< indices into previews_
     double asked_at = 0.0;                  ///< [s]
@@ -132,11 +132,12 @@ class ThinkingPlane {
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   /// Of these previews, as they are asked about.
   [[nodiscard]] language_model::Question write_question(const std::vector<std::size_t>& which);
-  void hear(const Question& question, const language_model::Progress& news);
-  void take_replies(const Question& question, const std::vector<language_model::Reply>& replies);
+  void hear(const OpenQuestion& question, const language_model::Progress& news);
+  void take_replies(const OpenQuestion& question,
+                    const std::vector<language_model::Reply>& replies);
   /// Those of it that have no plan.
   /// @param missed  the time that there was and that was too short [s]; 0: that was not why
-  void ask_again_later(const Question& question, double missed);
+  void ask_again_later(const OpenQuestion& question, double missed);
   void take_answer(const Round& round, Preview& preview, const language_model::Answer& answer);
   void judge_reasoning(const Round& round, Preview& preview);
   /// @return  whether the policy is what the forecast is provided with now

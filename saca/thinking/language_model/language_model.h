@@ -55,9 +55,9 @@ struct AskOptions {
   /// >= 0. 0: the likeliest token at every place (greedy). Any other: tokens are drawn, likelier
   /// ones more often (`sampling_temperature`), for the same seed the same.
   int sampling_seed = 0;
-  /// What each reply may say, from its first character on (GBNF, llama.cpp's notation; its first
-  /// rule is `root`): one per scene, empty where anything may be said; or none at all. A model
-  /// that cannot be held to a grammar replies without.
+  /// What each reply may say, from its first character on (GBNF, llama.cpp's notation, with a rule
+  /// `root`): one per scene, of which an empty one allows anything; or an empty list. A model that
+  /// cannot be held to a grammar replies without.
   std::vector<std::string> grammars = {};
 };
 

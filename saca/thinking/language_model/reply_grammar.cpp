@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
+#include "saca/base/core/contract.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/statements.h"
 
@@ -15,8 +17,9 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-/// A text as it stands. What is said has neither quotes nor backslashes.
+/// A text as it stands.
 std::string literal(std::string_view text) {
+  expects(text.find_first_of("\"\\\n") == std::string_view::npos, "words without marks of GBNF");
   return fmt::format("\"{}\"", text);
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "saca/thinking/language_model/conclusion.h"
@@ -55,6 +56,7 @@ Asked asked(unsigned seed) {
     one.nearest.emplace();
     one.nearest->best = *manoeuvre::policy_from(static_cast<int>(seed % 8));
     one.nearest->harm = 0.2;
+    one.nearest->origin = seed % 6 == 0 ? memory::Origin::expert : memory::Origin::own;
   }
   if (seed % 5 == 0) {
     one.situation.scene_at_trigger.cues.push_back({world::CueKind::parked_vans, {12.0, -3.5}});
@@ -152,7 +154,7 @@ TEST(ReplyGrammar, SaysNothingOfRisksThatAreNotTold) {
     std::mt19937_64 random(seed);
     for (int k = 0; k < 20; ++k) {
       const std::string text = about.grammar().drawn(random);
-      EXPECT_EQ(text.find("risk 0"), std::string::npos) << text;
+      EXPECT_EQ(text.find(", risk "), std::string::npos) << text;
       expect_true(text, about);
     }
   }

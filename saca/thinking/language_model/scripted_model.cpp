@@ -23,6 +23,7 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
     const std::function<void(const Progress&)>& progress, const AskOptions& options) {
   ++num_asked_;
   last_scenes_ = scenes;
+  last_grammars_ = options.grammars;
   last_deadline_ = deadline;
   const Clock::Time begin = clock_.now();
   std::vector<Reply> replies;

@@ -46,6 +46,7 @@ class ScriptedModel final : public LanguageModel {
   /// How often it was asked, and what the last time.
   [[nodiscard]] int num_asked() const { return num_asked_; }
   [[nodiscard]] const std::vector<std::string>& last_scenes() const { return last_scenes_; }
+  [[nodiscard]] const std::vector<std::string>& last_grammars() const { return last_grammars_; }
   [[nodiscard]] Clock::Time last_deadline() const { return last_deadline_; }
 
  private:
@@ -57,6 +58,7 @@ class ScriptedModel final : public LanguageModel {
   Clock& clock_;
   int num_asked_ = 0;
   std::vector<std::string> last_scenes_;
+  std::vector<std::string> last_grammars_;
   Clock::Time last_deadline_{0};
 };
 

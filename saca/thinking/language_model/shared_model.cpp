@@ -76,7 +76,7 @@ Result<std::vector<Reply>> SharedModel::reply_to(
   return any || !unanswered ? Result(std::move(replies)) : *unanswered;
 }
 
-Result<Reply> SharedModel::known_or_asked(const Question& question, Clock::Time patience,
+Result<Reply> SharedModel::known_or_asked(const PutQuestion& question, Clock::Time patience,
                                           const std::stop_token& stop) {
   if (stop.stop_requested()) {
     return Error{Error::Code::too_late, "the question is withdrawn"};
@@ -101,7 +101,7 @@ Result<Reply> SharedModel::known_or_asked(const Question& question, Clock::Time 
   return found->second.has_value() ? Result(later_by(found->second.value(), now)) : found->second;
 }
 
-Result<Reply> SharedModel::asked(const Question& question, Clock::Time patience,
+Result<Reply> SharedModel::asked(const PutQuestion& question, Clock::Time patience,
                                  const std::stop_token& stop) {
   Clock::Time begin{0};
   const auto ask = [&]() -> Result<Reply> {

@@ -38,21 +38,21 @@ class SharedModel final : public LanguageModel {
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
-  struct Question {
+  struct PutQuestion {
     std::string scene;
     std::optional<int> max_tokens;
     int sampling_seed = 0;
     std::string grammar;
 
-    auto operator<=>(const Question&) const = default;
+    auto operator<=>(const PutQuestion&) const = default;
   };
 
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
       const std::function<void(const Progress&)>& progress, const AskOptions& options) override;
-  [[nodiscard]] Result<Reply> known_or_asked(const Question& question, Clock::Time patience,
+  [[nodiscard]] Result<Reply> known_or_asked(const PutQuestion& question, Clock::Time patience,
                                              const std::stop_token& stop);
-  [[nodiscard]] Result<Reply> asked(const Question& question, Clock::Time patience,
+  [[nodiscard]] Result<Reply> asked(const PutQuestion& question, Clock::Time patience,
                                     const std::stop_token& stop);
 
   LanguageModel& model_;
@@ -60,8 +60,8 @@ class SharedModel final : public LanguageModel {
   std::stop_token stop_;
   mutable std::mutex mutex_;  ///< of the model and of all below
   std::optional<Error> failure_;
-  std::map<Question, Result<Reply>> known_;  ///< answer times count from the question
-  std::deque<Question> order_;               ///< of `known_`, oldest first
+  std::map<PutQuestion, Result<Reply>> known_;  ///< answer times count from the question
+  std::deque<PutQuestion> order_;               ///< of `known_`, oldest first
 };
 
 }  // namespace saca::language_model

@@ -69,6 +69,18 @@ TEST(SharedModel, DoesNotPutTheSameQuestionTwice) {
   EXPECT_EQ(inner.num_asked(), 3U);  // so is that
 }
 
+// What a reply may say is part of the question.
+TEST(SharedModel, AnotherGrammarIsAnotherQuestion) {
+  ManualClock clock;
+  ScriptedModel inner(ScriptedReply{.lines = {{.answer = Answer::Kind::ended}}}, clock);
+  SharedModel model(inner, clock);
+  for (const std::string grammar : {"root ::= \"a\"", "root ::= \"b\"", "root ::= \"a\""}) {
+    ASSERT_TRUE(model.ask({"scene"}, 9s, unheard, {.grammars = {grammar}}).has_value());
+  }
+  EXPECT_EQ(inner.num_asked(), 2);
+  EXPECT_EQ(inner.last_grammars(), std::vector<std::string>{"root ::= \"b\""});
+}
+
 TEST(SharedModel, AModelThatDiesIsAskedOnceMore) {
   const ManualClock clock;
   Queue inner({dead, reply(Answer::Kind::ended), reply(Answer::Kind::first),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "saca/onboard/collision/harm.h"
 #include "saca/onboard/collision/ordering.h"
@@ -138,12 +139,17 @@ std::vector<std::string> Statements::warnings() const {
              : std::vector{what + "may hide somebody", what + "may mean somebody who is not seen"};
 }
 
+/// Whether the most alike case tells what was best: of one that somebody told nobody knows.
+bool Statements::has_hindsight() const {
+  return nearest_ && !memory::is_hearsay(*nearest_);
+}
+
 std::vector<Remark> Statements::remarks() const {
   std::vector<Remark> all;
   for (const int side : {1, -1}) {
     add_side(side, all);
   }
-  if (nearest_) {
+  if (has_hindsight()) {
     const bool did_worse = nearest_->plan.policy != nearest_->best &&
                            nearest_->harm > nearest_->best_harm + memory::as_good;
     const std::string how =
@@ -254,7 +260,7 @@ std::vector<std::string> Statements::advantages(PolicyId choice, PolicyId other)
   const world::Road& road = situation_.scene_at_trigger.road;
   add_if(leads_into_oncoming(road, other) && !leads_into_oncoming(road, choice),
          ", and stays out of the oncoming lane");
-  add_if(nearest_ && nearest_->best == choice, ", and this was best in the most alike case");
+  add_if(has_hindsight() && nearest_->best == choice, ", and this was best in the most alike case");
   return all;
 }
 

@@ -12,7 +12,7 @@
 
 namespace saca::language_model {
 
-/// Of a reply, without its first and last line.
+/// A reply has at most so many numbered statements, its conclusion among them.
 constexpr int most_statements = 4;
 
 /// What a reply says of a road user, piece by piece, from the prompt's line about it. A piece is
@@ -29,15 +29,19 @@ struct RoadUserPieces {
 /// Something that may be said besides, each by itself.
 struct Remark {
   std::vector<std::string> wordings;  ///< at least one
-  int side = 0;  ///< +1: of what lies to the left, -1: to the right, and not chosen; 0: else
-  bool rules_out = false;  ///< nothing to that side can be chosen beside it
+  /// +1 or -1: about what lies to the left or right, for a choice that does not go there; 0: for
+  /// any.
+  int side = 0;
+  bool rules_out = false;  ///< nothing to that side is open: never beside a choice of that side
 };
 
-/// The pieces that true replies are made of: every one of them, and every statement that the
-/// functions below put together, holds by `truth_of`. In the words that models are taught.
+/// The pieces that true replies are made of, in the words that models are taught: none of them, and
+/// no statement that the functions below put together, is refuted by `truth_of`. What that cannot
+/// check (what a cue may mean, that a way keeps away from it, that less speed harms less if a
+/// forecast errs) is so by construction.
 class Statements {
  public:
-  /// All of them outlive it.
+  /// The arguments must outlive this object.
   /// @param scene_part  of this situation and case
   /// @param nearest     as for the scene part
   Statements(const preview::Situation& situation, std::string_view scene_part,
@@ -77,8 +81,8 @@ class Statements {
   [[nodiscard]] bool is_alone() const;
   /// The best by forecast of the others; nullopt: no other can be driven.
   [[nodiscard]] std::optional<manoeuvre::PolicyId> next_best(manoeuvre::PolicyId choice) const;
-  /// Why this one, without what speaks for it. It begins with its name, so that what is chosen is
-  /// settled before it is reasoned why.
+  /// The last statement up to its comparison: "So AEB: as good as NI". It begins with the choice's
+  /// name, so that what is chosen is settled before it is reasoned why.
   /// @param choice  admissible
   /// @param other   another one, likewise where several are, else the next best; nullopt: no other
   ///                can be driven
@@ -90,6 +94,7 @@ class Statements {
                                                     manoeuvre::PolicyId other) const;
 
  private:
+  [[nodiscard]] bool has_hindsight() const;
   [[nodiscard]] Vec2 place_of(const world::Cue& cue) const;
   [[nodiscard]] int side_of(const world::Cue& cue) const;
   [[nodiscard]] const world::Cue* next_cue() const;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "saca/thinking/language_model/left_is_open_for_test.h"
 #include "saca/thinking/language_model/prompt.h"
 
@@ -99,6 +101,22 @@ TEST(Statements, RemarksKnowTheirSide) {
   EXPECT_THAT(remarks.back().wordings,
               ElementsAre("In the most alike case ES-B-L was best in hindsight",
                           "In the nearest case ES-B-L was best in hindsight"));
+}
+
+// What somebody told of a case is no hindsight.
+TEST(Statements, SayNothingOfHearsay) {
+  const preview::Situation situation = left_is_open();
+  memory::Case told;
+  told.origin = memory::Origin::expert;
+  told.best = PolicyId::aes_left;
+  ASSERT_TRUE(memory::is_hearsay(told));
+  const std::optional<memory::Case> found = told;
+  const std::string prompt = scene_part(situation, found, 0.9);
+  const Statements statements(situation, prompt, found);
+  for (const Remark& remark : statements.remarks()) {
+    EXPECT_THAT(remark.wordings, testing::Each(testing::Not(testing::HasSubstr("case"))));
+  }
+  EXPECT_THAT(statements.advantages(PolicyId::aes_left, PolicyId::es_b_left), IsEmpty());
 }
 
 }  // namespace
