@@ -41,8 +41,11 @@ Result<std::optional<language_model::Review>> review(
       on_text(news.text);
     }
   };
-  const auto replies = setup.model->ask({review.prompt}, setup.clock->now() + review_patience, hear,
-                                        {.stop = stop, .max_tokens = review_tokens});
+  const language_model::AskOptions options{.stop = stop,
+                                           .max_tokens = review_tokens,
+                                           .grammars = {language_model::review_grammar(aftermath)}};
+  const auto replies =
+      setup.model->ask({review.prompt}, setup.clock->now() + review_patience, hear, options);
   if (!replies.has_value()) {
     return replies.error();
   }
@@ -57,9 +60,8 @@ Result<std::optional<language_model::Review>> review(
                                        aftermath);
   };
   review.shown = shown_by(written);
-  const auto again =
-      language_model::told_again(*setup.model, *setup.clock, review.prompt, review.shown, shown_by,
-                                 {.stop = stop, .max_tokens = review_tokens});
+  const auto again = language_model::told_again(*setup.model, *setup.clock, review.prompt,
+                                                review.shown, shown_by, options);
   if (again.has_value()) {
     review.shown = again.value();
   }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "saca/base/core/contract.h"
+#include "saca/thinking/language_model/gbnf.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/statements.h"
 
@@ -17,30 +17,10 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-/// A text as it stands.
-std::string literal(std::string_view text) {
-  expects(text.find_first_of("\"\\\n") == std::string_view::npos, "words without marks of GBNF");
-  return fmt::format("\"{}\"", text);
-}
-
-std::string one_of(const std::vector<std::string>& parts) {
-  return fmt::format("({})", fmt::join(parts, " | "));
-}
-
-std::vector<std::string> literals(const std::vector<std::string>& texts) {
-  std::vector<std::string> all;
-  for (const std::string& text : texts) {
-    if (!text.empty()) {
-      all.push_back(literal(text));
-    }
-  }
-  return all;
-}
-
-/// One of these, or nothing.
-std::string perhaps(const std::vector<std::string>& parts) {
-  return parts.empty() ? "" : one_of(parts) + "?";
-}
+using gbnf::literal;
+using gbnf::literals;
+using gbnf::one_of;
+using gbnf::perhaps;
 
 /// The kinds of statements, in the order in which they are made; each may be left out but the
 /// conclusion.

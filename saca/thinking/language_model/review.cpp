@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <vector>
 
 #include "saca/onboard/collision/ordering.h"
+#include "saca/thinking/language_model/gbnf.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/memory/experience.h"
 #include "saca/thinking/rollout/describe.h"
@@ -46,6 +48,41 @@ std::string review_prompt(const Aftermath& aftermath) {
   return text + (was_best(aftermath) ? ": what was carried out\n"
                                      : fmt::format(": harm less by {:.4f}\n",
                                                    aftermath.result.harm - best.outcome().harm));
+}
+
+std::string review_grammar(const Aftermath& aftermath) {
+  const auto& facts = aftermath.known.facts;
+  const std::string happened = gbnf::literal(
+      fmt::format("It came to this: {}, {}", rollout::describe(aftermath.result, aftermath.met),
+                  harm_text(aftermath.result.harm)));
+  std::vector<std::string> lessons;
+  for (const preview::PolicyFacts& each : facts) {
+    if (each.drivable() && each.plan.policy != aftermath.done.policy) {
+      const std::string line = policy_line(each, aftermath.known.scene_at_trigger);
+      lessons.push_back(gbnf::literal("To remember:" + line.substr(line.find(' '))));  // no number
+    }
+  }
+  if (aftermath.forecast_harm && aftermath.later.empty() &&
+      std::abs(aftermath.result.harm - *aftermath.forecast_harm) > memory::as_good) {
+    lessons.push_back(gbnf::literal(
+        fmt::format("It harmed {} than was forecast: {} instead of {}",
+                    aftermath.result.harm > *aftermath.forecast_harm ? "more" : "less",
+                    harm_text(aftermath.result.harm), harm_text(*aftermath.forecast_harm))));
+  }
+  const double less =
+      aftermath.result.harm - facts[manoeuvre::index(aftermath.best)].outcome().harm;
+  const std::string best =
+      gbnf::literal(fmt::format("So {}: least harm", name(aftermath.best))) + ' ' +
+      gbnf::perhaps(was_best(aftermath) || less < collision::harm_tie
+                        ? std::vector<std::string>()
+                        : gbnf::literals({fmt::format(", harm less by {:.4f}", less)}));
+  const std::string second =
+      lessons.empty() ? R"("2. " best)"
+                      : fmt::format(R"("2. " (best | {} ".\n3. " best))", gbnf::one_of(lessons));
+  return fmt::format(
+      "root ::= \"Scenario Analysis\\n1. \" {} \".\\n\" {} \".\\nResponse to user:\"\nbest ::= "
+      "{}\n",
+      happened, second, best);
 }
 
 Explanation explanation(const Review& review, const Aftermath& aftermath) {

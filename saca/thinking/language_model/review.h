@@ -39,6 +39,11 @@ struct Review {
 /// All figures stand in it (computed, not to be computed). Words as in `scene_part`.
 [[nodiscard]] std::string review_prompt(const Aftermath& aftermath);
 
+/// The reviews that are true (GBNF, as AskOptions::grammars wants it): what it came to, what was
+/// forecast wrongly or what another policy would have led to, and the best. A model chooses among
+/// them.
+[[nodiscard]] std::string review_grammar(const Aftermath& aftermath);
+
 /// What of a review is true, where that is its last statement too; else what happened in three
 /// statements of the same figures.
 [[nodiscard]] Explanation explanation(const Review& review, const Aftermath& aftermath);

@@ -2,7 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
+#include <set>
+
+#include "saca/thinking/language_model/conclusion.h"
+#include "saca/thinking/language_model/crowded_situation_for_test.h"
 #include "saca/thinking/language_model/example_situation.h"
+#include "saca/thinking/language_model/gbnf_for_test.h"
 
 namespace saca::language_model::review_test {
 namespace {
@@ -79,6 +85,64 @@ TEST(Review, IsShownWhereItIsTrue) {
   review.text = "1. NI hits truck1, harm 0.0125.\n2. NI is clear.\n3. AEB is clear by 0.6 m.\n";
   EXPECT_EQ(explanation(review, made).text,
             "1. NI hits truck1, harm 0.0125.\n2. AEB is clear by 0.6 m.\n");
+}
+
+/// Of a crowded scene: some policy was carried out, perhaps another after it.
+Aftermath crowded_aftermath(unsigned seed) {
+  Aftermath made{.known = crowded_situation(seed)};
+  const preview::AllFacts& facts = made.known.facts;
+  const preview::PolicyFacts& done = facts[seed % facts.size()];
+  made.done = done.plan;
+  made.result = done.outcome();
+  made.best = preview::best_by_forecast(facts);
+  made.met = {made.known.scene_at_trigger.actors.begin(), made.known.scene_at_trigger.actors.end()};
+  if (seed % 3 == 0) {
+    made.later = {facts[(seed + 1) % facts.size()].plan};
+  }
+  if (seed % 2 == 0) {
+    made.forecast_harm = 0.5;
+  }
+  return made;
+}
+
+TEST(Review, ItsGrammarAllowsNothingFalse) {
+  std::set<std::string> texts;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Aftermath made = crowded_aftermath(seed);
+    Review review{.prompt = review_prompt(made)};
+    const Gbnf grammar(review_grammar(made));
+    std::mt19937_64 random(seed);
+    for (int k = 0; k < 10; ++k) {
+      review.text = grammar.drawn(random);
+      texts.insert(review.text);
+      const Truth truth = truth_of(review.text, review.prompt, made.known, std::nullopt);
+      for (const FalseStatement& one : truth.wrong) {
+        ADD_FAILURE() << one.text << ": " << one.why << '\n' << review.prompt << review.text;
+      }
+      const Explanation shown = explanation(review, made);
+      EXPECT_EQ(shown.from, Explanation::From::model) << review.text;
+      EXPECT_EQ(first_named(shown.text.substr(shown.text.rfind("So "))), made.best) << review.text;
+    }
+  }
+  EXPECT_GE(texts.size(), 300U);
+}
+
+TEST(Review, ItsGrammarTellsWhatCame) {
+  Aftermath made = aftermath();
+  made.forecast_harm = 0.0031;
+  const Gbnf grammar(review_grammar(made));
+  const std::string happened =
+      "Scenario Analysis\n1. It came to this: hits truck1 with its front at 15.0 m/s, harm "
+      "0.0125.\n";
+  const std::string best = "So AEB: least harm, harm less by 0.0125.\nResponse to user:";
+  EXPECT_TRUE(grammar.accepts(happened + "2. " + best));
+  EXPECT_TRUE(grammar.accepts(
+      happened + "2. It harmed more than was forecast: harm 0.0125 instead of harm 0.0031.\n3. " +
+      best));
+  EXPECT_TRUE(
+      grammar.accepts(happened + "2. To remember: AEB: clear by 0.6 m, no harm.\n3. " + best));
+  EXPECT_FALSE(grammar.accepts(happened + "2. So AES-L: least harm.\nResponse to user:"));
+  EXPECT_FALSE(grammar.accepts("Scenario Analysis\n2. " + best));
 }
 
 TEST(Review, ElseItsFiguresAreShown) {
