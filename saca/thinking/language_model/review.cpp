@@ -19,6 +19,23 @@ bool was_best(const Aftermath& aftermath) {
   return aftermath.best == aftermath.done.policy && aftermath.later.empty();
 }
 
+/// "hits car1 with its front at 4.2 m/s, harm 0.0125".
+std::string result_text(const Aftermath& aftermath) {
+  return rollout::describe(aftermath.result, aftermath.met) + ", " +
+         harm_text(aftermath.result.harm);
+}
+
+/// Harm of what was done above that of the best.
+double harm_above_best(const Aftermath& aftermath) {
+  const preview::PolicyFacts& best = aftermath.known.facts[manoeuvre::index(aftermath.best)];
+  return aftermath.result.harm - best.outcome().harm;
+}
+
+/// Of what was carried out to the end; nullopt: nothing was forecast of it.
+std::optional<double> forecast_of(const Aftermath& aftermath) {
+  return aftermath.later.empty() ? aftermath.forecast_harm : std::nullopt;
+}
+
 }  // namespace
 
 std::string review_prompt(const Aftermath& aftermath) {
@@ -34,10 +51,9 @@ std::string review_prompt(const Aftermath& aftermath) {
   for (const manoeuvre::Plan& plan : aftermath.later) {
     text += ", then " + manoeuvre::plan_text(plan);
   }
-  text += ": " + rollout::describe(aftermath.result, aftermath.met) + ", " +
-          harm_text(aftermath.result.harm);
-  if (aftermath.forecast_harm && aftermath.later.empty()) {
-    text += "; forecast was " + harm_text(*aftermath.forecast_harm);
+  text += ": " + result_text(aftermath);
+  if (const auto forecast = forecast_of(aftermath)) {
+    text += "; forecast was " + harm_text(*forecast);
   }
   text += "\n## What each policy leads to, as is known now:\n";
   for (const preview::PolicyFacts& each : facts) {
@@ -45,16 +61,14 @@ std::string review_prompt(const Aftermath& aftermath) {
                             : manoeuvre::plan_text(each.plan) + ": not possible\n";
   }
   text += "## Best in Hindsight:\n" + manoeuvre::plan_text(best.plan);
-  return text + (was_best(aftermath) ? ": what was carried out\n"
-                                     : fmt::format(": harm less by {:.4f}\n",
-                                                   aftermath.result.harm - best.outcome().harm));
+  return text + (was_best(aftermath)
+                     ? ": what was carried out\n"
+                     : fmt::format(": harm less by {:.4f}\n", harm_above_best(aftermath)));
 }
 
 std::string review_grammar(const Aftermath& aftermath) {
   const auto& facts = aftermath.known.facts;
-  const std::string happened = gbnf::literal(
-      fmt::format("It came to this: {}, {}", rollout::describe(aftermath.result, aftermath.met),
-                  harm_text(aftermath.result.harm)));
+  const std::string happened = gbnf::literal("It came to this: " + result_text(aftermath));
   std::vector<std::string> lessons;
   for (const preview::PolicyFacts& each : facts) {
     if (each.drivable() && each.plan.policy != aftermath.done.policy) {
@@ -62,15 +76,14 @@ std::string review_grammar(const Aftermath& aftermath) {
       lessons.push_back(gbnf::literal("To remember:" + line.substr(line.find(' '))));  // no number
     }
   }
-  if (aftermath.forecast_harm && aftermath.later.empty() &&
-      std::abs(aftermath.result.harm - *aftermath.forecast_harm) > memory::as_good) {
-    lessons.push_back(gbnf::literal(
-        fmt::format("It harmed {} than was forecast: {} instead of {}",
-                    aftermath.result.harm > *aftermath.forecast_harm ? "more" : "less",
-                    harm_text(aftermath.result.harm), harm_text(*aftermath.forecast_harm))));
+  const auto forecast = forecast_of(aftermath);
+  if (forecast && std::abs(aftermath.result.harm - *forecast) > memory::as_good) {
+    lessons.push_back(
+        gbnf::literal(fmt::format("It harmed {} than was forecast: {} instead of {}",
+                                  aftermath.result.harm > *forecast ? "more" : "less",
+                                  harm_text(aftermath.result.harm), harm_text(*forecast))));
   }
-  const double less =
-      aftermath.result.harm - facts[manoeuvre::index(aftermath.best)].outcome().harm;
+  const double less = harm_above_best(aftermath);
   const std::string best =
       gbnf::literal(fmt::format("So {}: least harm", name(aftermath.best))) + ' ' +
       gbnf::perhaps(was_best(aftermath) || less < collision::harm_tie
@@ -90,13 +103,12 @@ Explanation explanation(const Review& review, const Aftermath& aftermath) {
     return *std::move(held);
   }
   const preview::PolicyFacts& best = aftermath.known.facts[manoeuvre::index(aftermath.best)];
-  const double more = aftermath.result.harm - best.outcome().harm;
+  const double more = harm_above_best(aftermath);
   std::string text = fmt::format("1. {} was carried out", manoeuvre::plan_name(aftermath.done));
   for (const manoeuvre::Plan& plan : aftermath.later) {
     text += ", then " + manoeuvre::plan_name(plan);
   }
-  text += fmt::format(": {}, {}.\n", rollout::describe(aftermath.result, aftermath.met),
-                      harm_text(aftermath.result.harm));
+  text += ": " + result_text(aftermath) + ".\n";
   if (was_best(aftermath)) {
     text += "2. Nothing would have harmed less.\n";
   } else if (more >= collision::harm_tie) {
@@ -105,14 +117,14 @@ Explanation explanation(const Review& review, const Aftermath& aftermath) {
   } else {
     text += fmt::format("2. {} would have harmed as much.\n", manoeuvre::plan_name(best.plan));
   }
-  if (aftermath.forecast_harm && aftermath.later.empty()) {
-    const double error = aftermath.result.harm - *aftermath.forecast_harm;
+  if (const auto forecast = forecast_of(aftermath)) {
+    const double error = aftermath.result.harm - *forecast;
     text += std::abs(error) <= memory::as_good
                 ? "3. It went as forecast"
                 : fmt::format("3. It harmed {:.4f} {} than was forecast", std::abs(error),
                               error > 0.0 ? "more" : "less");
     text += fmt::format(": {} instead of {}.\n", harm_text(aftermath.result.harm),
-                        harm_text(*aftermath.forecast_harm));
+                        harm_text(*forecast));
   }
   return {text, Explanation::From::facts};
 }

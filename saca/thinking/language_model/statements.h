@@ -62,7 +62,7 @@ class Statements {
   [[nodiscard]] std::optional<std::size_t> most_dangerous() const;
   /// How he may be introduced: "The danger is ".
   [[nodiscard]] std::vector<std::string> addresses() const;
-  /// @param actor  told of
+  /// @param actor  one whom the prompt has a line about
   [[nodiscard]] RoadUserPieces pieces_of(std::size_t actor) const;
 
   /// "AEB is clear by 0.6 m", "AEB hits car1": what the prompt has of it, in short; empty: nothing.
