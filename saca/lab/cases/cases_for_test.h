@@ -33,13 +33,9 @@ inline const ShippedTools& shipped() {
   return tools;
 }
 
-/// A crash into somebody slower, drawn from the shipped family; braking is its best.
-inline CrashCase case_by_hand(const std::string& name = "fars_2016_40001") {
-  static const families::Family family = [] {
-    return families::load_family("scenarios/families", "slower_lead").value();
-  }();
-  static const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", shipped().car,
-                                             shipped().harm, {.seed = 3, .most = 20});
+/// A crash as the search found it in a family, not judged yet.
+inline CrashCase found_case(const std::string& name, const families::Family& family,
+                            const CrashFound& found) {
   CrashCase one{
       .record = {.study = "FARS", .name = name, .state = "Arizona", .year = 2016, .number = 40001},
       .family = "rear_end",
@@ -55,6 +51,17 @@ inline CrashCase case_by_hand(const std::string& name = "fars_2016_40001") {
   for (const auto& [key, range] : family.ranges) {
     one.ranges.push_back({key, range.min, range.max, range.source});
   }
+  return one;
+}
+
+/// A crash into somebody slower, drawn from the shipped family; braking is its best.
+inline CrashCase case_by_hand(const std::string& name = "fars_2016_40001") {
+  static const families::Family family = [] {
+    return families::load_family("scenarios/families", "slower_lead").value();
+  }();
+  static const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", shipped().car,
+                                             shipped().harm, {.seed = 3, .most = 20});
+  CrashCase one = found_case(name, family, found);
   one.ranges[0].source = "recorded: ego's TRAV_SP 45 mph";
   one.judged.one.scene.ego_footprint = manoeuvre::footprint(shipped().car);
   one.judged.one.scene.ego_mass = shipped().car.mass;

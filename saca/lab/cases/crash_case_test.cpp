@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "saca/lab/cases/cases_for_test.h"
 #include "saca/lab/cases/crash_search.h"
 #include "saca/lab/eval/decision_point.h"
 #include "saca/lab/eval/scenes_for_test.h"
@@ -21,22 +22,7 @@ CrashCase example() {
   const manoeuvre::Car car = prepare::default_car();
   const CrashFound found = find_crash(family, std::nullopt, "compact_rwd_ev", car,
                                       eval::shipped_harm(), {.seed = 3, .most = 5});
-  CrashCase one{
-      .record =
-          {.study = "FARS", .name = family.name, .state = "Arizona", .year = 2016, .number = 40001},
-      .family = "rear_end",
-      .place = "highway",
-      .facts = {{"ego", "TRAV_SP", 45, "45 mph"}, {"crash", "LGT_COND", std::nullopt, "not known"}},
-      .kind = "slower_lead",
-      .seed = 3,
-      .sample = found.sample,
-      .grip = found.scenario.grip,
-      .without = found.as_written.contact,
-      .as_recorded = true,
-      .impact_agrees = true};
-  for (const auto& [key, range] : family.ranges) {
-    one.ranges.push_back({key, range.min, range.max, range.source});
-  }
+  CrashCase one = found_case(family.name, family, found);
   one.judged.one.scene = eval::scene_at(found.scenario, car, found.as_written.time);
   one.judged.one.plan = manoeuvre::Plan{.policy = manoeuvre::PolicyId::aeb, .strength = 0.6};
   one.judged.plans = {{one.judged.one.plan, 0.25, 0.5, true}, {{}, 0.5, 1.0, false}};
