@@ -52,7 +52,7 @@ class HostTest : public testing::Test {
 };
 
 TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
-  constexpr int most = 60;  // a reply of the shipped weights is longer
+  constexpr int most = 30;  // a reply of the shipped weights is longer
   language_model::ChildModelSettings patient = settings(most);
   patient.margin = 100.0;  // a busy machine may be slow to stop
   language_model::ChildModel model(patient, clock_);
@@ -196,6 +196,29 @@ TEST_F(HostTest, NoPromptIsLongerThanItsBound) {
     EXPECT_GE(tokens, language_model::tokens_at_most(scene) * 9 / 10)
         << "the bound wastes much: " << scene;
     EXPECT_LE(tokens, language_model::most_prompt_tokens + chat_tokens) << scene;
+  }
+}
+
+// Text that a grammar leaves no choice about is not asked for, token by token. The same grammar
+// written with more of the notation, which nobody here follows, leads to the same text.
+TEST_F(HostTest, WhatMustComeIsWrittenAsIfItHadBeenChosen) {
+  language_model::ChildModel model(settings(112), clock_);
+  for (const unsigned seed : {0U, 1U, 2U}) {
+    const preview::Situation situation =
+        seed == 0 ? situation_ : language_model::crowded_situation(seed);
+    const std::string scene = language_model::scene_part(situation, std::nullopt, 0.0);
+    const std::string grammar = language_model::reply_grammar(situation, scene, std::nullopt);
+    const auto followed =
+        model.ask({scene}, clock_.now() + patience, nobody_, {.grammars = {grammar}});
+    const auto by_token = model.ask({scene}, clock_.now() + patience, nobody_,
+                                    {.grammars = {grammar + "unused ::= [a-z]\n"}});
+    ASSERT_TRUE(followed.has_value()) << followed.error().message;
+    ASSERT_TRUE(by_token.has_value()) << by_token.error().message;
+    const language_model::Reply& reply = followed.value()[0];
+    EXPECT_EQ(reply.reasoning, by_token.value()[0].reasoning);
+    EXPECT_EQ(reply.reply_tokens, by_token.value()[0].reply_tokens) << reply.reasoning;
+    EXPECT_EQ(reply.answers.back().kind, Answer::Kind::ended);
+    EXPECT_EQ(reply.answers.size(), by_token.value()[0].answers.size());
   }
 }
 

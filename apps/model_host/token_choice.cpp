@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "saca/thinking/language_model/language_model.h"
+#include "tokens.h"
 
 namespace saca::model_host {
 namespace {
@@ -23,6 +24,21 @@ llama_sampler* drawing(int seed) {
   return chain;
 }
 
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Whether a token that ends with this byte may be a longer one with one of those behind it. The
+// tokeniser never joins a digit, or letters with what is none; a space it joins with what follows.
+bool may_grow(char last, std::string_view next) {
+  return !is_digit(last) && std::any_of(next.begin(), next.end(), [last](char c) {
+    return is_letter(last) == is_letter(c) || last == ' ';
+  });
+}
+
 llama_token likeliest(const float* logits, int count) {
   return static_cast<llama_token>(std::max_element(logits, logits + count) - logits);
 }
@@ -37,6 +53,7 @@ Result<TokenChoice> TokenChoice::make(const llama_vocab* vocab, const std::strin
     if (choice.grammar_ == nullptr) {
       return Error{Error::Code::malformed, "grammar: want GBNF with a rule root, cannot read it"};
     }
+    choice.walk_ = language_model::GrammarWalk::make(grammar);
   }
   if (seed != 0) {
     choice.draw_.reset(drawing(seed));
@@ -46,12 +63,47 @@ Result<TokenChoice> TokenChoice::make(const llama_vocab* vocab, const std::strin
 
 llama_token TokenChoice::next(const float* logits) {
   const std::optional<llama_token> token = chosen(logits);
-  for (llama_sampler* const one : {draw_.get(), grammar_.get()}) {
-    if (token && one != nullptr) {
-      llama_sampler_accept(one, *token);
-    }
+  if (token) {
+    take(*token);
   }
   return token.value_or(llama_vocab_eos(vocab_));
+}
+
+void TokenChoice::take(llama_token token) {
+  for (llama_sampler* const one : {draw_.get(), grammar_.get()}) {
+    if (one != nullptr) {
+      llama_sampler_accept(one, token);
+    }
+  }
+  if (walk_) {
+    const std::string piece = piece_of(vocab_, token);
+    walk_->take(piece);
+    text_ += piece;
+    tokens_.push_back(token);
+  }
+}
+
+std::vector<llama_token> TokenChoice::forced() {
+  const std::string text = walk_ ? walk_->forced() : "";
+  if (text.empty()) {
+    return {};
+  }
+  std::vector<llama_token> all = tokens_of(vocab_, text_ + text, false);
+  // Who chose tokens in another way than the tokeniser would goes on alone.
+  if (all.size() <= tokens_.size() || !std::equal(tokens_.begin(), tokens_.end(), all.begin())) {
+    return {};
+  }
+  language_model::GrammarWalk behind = *walk_;
+  behind.take(text);
+  if (may_grow(text.back(), behind.possible())) {
+    all.pop_back();
+  }
+  std::vector<llama_token> tokens(all.begin() + static_cast<std::ptrdiff_t>(tokens_.size()),
+                                  all.end());
+  for (const llama_token token : tokens) {
+    take(token);
+  }
+  return tokens;
 }
 
 bool TokenChoice::is_allowed(llama_token token) const {
