@@ -8,9 +8,9 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/lab/intention_study/example_set.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/training/sequence_file.h"
 
 namespace saca::app {
 namespace {
@@ -28,14 +28,14 @@ int make_examples(const ExamplesOptions& options) {
   if (!all.has_value()) {
     return refused(all.error());
   }
-  if (const auto rule = training::broken_rule(all.value())) {
+  if (const auto rule = intention_scoring::broken_rule(all.value())) {
     complain(fmt::format("{}: {}", options.request.sets.front(), *rule));
     return bad_input;
   }
   if (const auto problem = long_work::make_folder_of(options.output)) {
     return refused(*problem);
   }
-  if (const auto problem = training::write_sequences(options.output, all.value())) {
+  if (const auto problem = intention_scoring::write_sequences(options.output, all.value())) {
     return refused(*problem);
   }
   app::print("{}", intention_study::shares_text(all.value()));

@@ -9,12 +9,12 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/intention_scoring/evaluation.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/lab/intention_study/evaluation.h"
 #include "saca/lab/intention_study/evaluation_json.h"
 #include "saca/lab/intention_study/evaluation_text.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/training/evaluation.h"
-#include "saca/lab/training/sequence_file.h"
 
 namespace saca::app {
 namespace {
@@ -42,14 +42,14 @@ int evaluate(const EvalOptions& options) {
   if (!folder.has_value()) {
     return refused(folder.error());
   }
-  const auto set = training::read_sequences(options.sequences);
+  const auto set = intention_scoring::read_sequences(options.sequences);
   if (!set.has_value()) {
     return refused(set.error());
   }
   if (const auto problem = long_work::why_outputs_unwritable({options.svg})) {
     return refused(*problem);
   }
-  const auto models = training::read_models(folder.value());
+  const auto models = intention_scoring::read_models(folder.value());
   if (!models.has_value()) {
     return refused(models.error());
   }

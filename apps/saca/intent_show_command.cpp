@@ -10,12 +10,12 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/intention_scoring/predict.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/lab/intention_study/sample_page.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/intention_chart.h"
 #include "saca/lab/report/intention_page.h"
-#include "saca/lab/training/predict.h"
-#include "saca/lab/training/sequence_file.h"
 
 namespace saca::app {
 namespace {
@@ -27,7 +27,7 @@ struct ShowOptions {
 };
 
 int show(const ShowOptions& options) {
-  const auto set = training::read_sequences(options.request.source);
+  const auto set = intention_scoring::read_sequences(options.request.source);
   if (!set.has_value()) {
     return refused(set.error());
   }
@@ -40,13 +40,13 @@ int show(const ShowOptions& options) {
                          options.request.source));
     return bad_input;
   }
-  std::vector<training::Forecasts> forecasts;
+  std::vector<intention_scoring::Forecasts> forecasts;
   if (!options.model.empty()) {
     const auto model = intent::read_model(options.model);
     if (!model.has_value()) {
       return refused(model.error());
     }
-    forecasts = training::predicted(
+    forecasts = intention_scoring::predicted(
         model.value(), intention_study::sequences_of(set.value(), chosen), usual_threads());
   }
   const auto page = intention_study::sample_page(set.value(), options.request, chosen, forecasts);

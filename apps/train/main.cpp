@@ -17,18 +17,18 @@
 #include "saca/base/core/file.h"
 #include "saca/base/core/fnv.h"
 #include "saca/base/core/parallel.h"
+#include "saca/lab/intention_scoring/calibration.h"
+#include "saca/lab/intention_scoring/evaluation.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/lab/network_training/lessons.h"
 #include "saca/lab/network_training/training.h"
-#include "saca/lab/training/calibration.h"
-#include "saca/lab/training/evaluation.h"
-#include "saca/lab/training/sequence_file.h"
 #include "saca/thinking/intent/model.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace saca;
-using training::Sequence;
+using intention_scoring::Sequence;
 
 constexpr std::string_view program = "saca-train";
 
@@ -51,11 +51,11 @@ struct Data {
 };
 
 Result<Data> read_data(const Options& options) {
-  auto read = training::read_sequences(options.sequences);
+  auto read = intention_scoring::read_sequences(options.sequences);
   if (!read.has_value()) {
     return read.error();
   }
-  training::SequenceSet set = std::move(read).value();
+  intention_scoring::SequenceSet set = std::move(read).value();
   Data data;
   std::vector<Sequence> simulated_test;
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
@@ -141,10 +141,10 @@ Result<std::vector<ModelFile>> read_model_files(const fs::path& folder) {
 }
 
 /// Of the recorded sequences, what models without calibration predict that have not seen them.
-Result<std::vector<training::Forecasts>> unseen_forecasts(std::vector<ModelFile> files,
-                                                          std::span<const Sequence> recorded,
-                                                          std::span<const std::string> splits) {
-  training::ModelsByLeftOut models;
+Result<std::vector<intention_scoring::Forecasts>> unseen_forecasts(
+    std::vector<ModelFile> files, std::span<const Sequence> recorded,
+    std::span<const std::string> splits) {
+  intention_scoring::ModelsByLeftOut models;
   for (ModelFile& file : files) {
     network_training::set_calibrations(file.tensors, {});
     auto model = intent::model_from(file.tensors, file.path.string());
@@ -153,13 +153,13 @@ Result<std::vector<training::Forecasts>> unseen_forecasts(std::vector<ModelFile>
     }
     models.emplace(file.left_out, std::move(model).value());
   }
-  return training::predicted_unseen(models, recorded, splits, usual_threads());
+  return intention_scoring::predicted_unseen(models, recorded, splits, usual_threads());
 }
 
 /// Calibrates each model of a folder on what models that had left a split out predict of it: on
 /// all splits but the one, or sequences of all sites but the one, that it has left out itself.
 int calibrate_models(const Options& options) {
-  const auto set = training::read_sequences(options.sequences);
+  const auto set = intention_scoring::read_sequences(options.sequences);
   if (!set.has_value()) {
     return train_program::failed(program, set.error());
   }
@@ -182,7 +182,7 @@ int calibrate_models(const Options& options) {
   }
   for (ModelFile& file : files) {
     std::vector<Sequence> sequences;
-    std::vector<training::Forecasts> of_them;
+    std::vector<intention_scoring::Forecasts> of_them;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
       if (splits[i] != file.left_out && recorded[i].site != file.left_out) {
         sequences.push_back(recorded[i]);
@@ -190,7 +190,7 @@ int calibrate_models(const Options& options) {
       }
     }
     network_training::set_calibrations(file.tensors,
-                                       training::best_calibrations(sequences, of_them));
+                                       intention_scoring::best_calibrations(sequences, of_them));
     if (const auto problem = write_file(file.path, formats::tensor_bytes(file.tensors))) {
       return train_program::failed(program, *problem);
     }

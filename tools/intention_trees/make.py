@@ -13,7 +13,7 @@ import files
 import sealed
 import windows
 
-AHEAD = (0, 5, 10)  # frames: the heads of saca/lab/training/score.h
+AHEAD = (0, 5, 10)  # frames: the heads of saca/lab/intention_scoring/score.h
 MOST_ROUNDS, PATIENCE = 400, 25
 STOPPED_BY = 8  # one group in so many is not learnt from, but stops the training
 # A class counts as much as its share to the power of -1/2: between "each frame alike", which forgets what is rare, and

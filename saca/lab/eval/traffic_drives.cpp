@@ -9,8 +9,8 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/lab/importers/traffic_recording.h"
+#include "saca/lab/intention_scoring/examples.h"
 #include "saca/lab/recordings/pack.h"
-#include "saca/lab/training/examples.h"
 
 namespace saca::eval {
 namespace fs = std::filesystem;
@@ -44,7 +44,7 @@ Result<FoundDrives> drives_in(const std::vector<fs::path>& files,
       }
       found.drives.push_back(
           {.site = recording.site,
-           .group = training::group_of(recording, vehicle),
+           .group = intention_scoring::group_of(recording, vehicle),
            .file = places.at(recording.name),
            .obstacle = vehicle.id,
            .from = vehicle.start,

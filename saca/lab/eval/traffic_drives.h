@@ -21,8 +21,8 @@ namespace saca::eval {
 /// A recorded car whose place the ego may take, so that the others around it are perceived from
 /// there.
 struct TrafficDrive {
-  std::string site;            ///< where it was recorded: "us101", "lankershim"
-  std::string group;           ///< training::group_of: drives of one group share road users
+  std::string site;   ///< where it was recorded: "us101", "lankershim"
+  std::string group;  ///< intention_scoring::group_of: drives of one group share road users
   std::filesystem::path file;  ///< CommonRoad
   std::int64_t obstacle = 0;   ///< the car's id in it
   double from = 0.0;           ///< first instant, in the file's time [s]

@@ -3,18 +3,18 @@
 #include <optional>
 #include <utility>
 
+#include "saca/lab/intention_scoring/calibration.h"
+#include "saca/lab/intention_scoring/forecast_file.h"
+#include "saca/lab/intention_scoring/intention_baselines.h"
+#include "saca/lab/intention_scoring/predict.h"
 #include "saca/lab/report/intention_chart.h"
-#include "saca/lab/training/calibration.h"
-#include "saca/lab/training/forecast_file.h"
-#include "saca/lab/training/intention_baselines.h"
-#include "saca/lab/training/predict.h"
 
 namespace saca::intention_study {
 namespace {
 
-using training::Forecasts;
-using training::ModelsByLeftOut;
-using training::Sequence;
+using intention_scoring::Forecasts;
+using intention_scoring::ModelsByLeftOut;
+using intention_scoring::Sequence;
 
 /// Models whose chain is taken away: each frame by its emissions alone.
 ModelsByLeftOut without_chains(ModelsByLeftOut models) {
@@ -27,7 +27,8 @@ ModelsByLeftOut without_chains(ModelsByLeftOut models) {
 std::optional<Error> add_unseen(MethodComparison& comparison, const std::string& method,
                                 const ModelsByLeftOut& models, const ScoredSet& scored,
                                 int threads) {
-  auto forecasts = training::predicted_unseen(models, scored.sequences, scored.splits, threads);
+  auto forecasts =
+      intention_scoring::predicted_unseen(models, scored.sequences, scored.splits, threads);
   if (!forecasts.has_value()) {
     return forecasts.error();
   }
@@ -43,7 +44,7 @@ std::optional<Error> add_closed(MethodComparison& comparison, const ModelsByLeft
 
 std::optional<Error> add_other_models(MethodComparison& comparison, const std::string& folder,
                                       const ScoredSet& scored, int threads) {
-  const auto others = training::read_models(folder);
+  const auto others = intention_scoring::read_models(folder);
   return others.has_value() ? add_unseen(comparison, "LSTM-CRF of another training", others.value(),
                                          scored, threads)
                             : others.error();
@@ -51,17 +52,17 @@ std::optional<Error> add_other_models(MethodComparison& comparison, const std::s
 
 std::optional<Error> add_plain_models(MethodComparison& comparison, const std::string& folder,
                                       const ScoredSet& scored, int threads) {
-  const auto plain = training::read_models(folder);
+  const auto plain = intention_scoring::read_models(folder);
   if (!plain.has_value()) {
     return plain.error();
   }
-  const auto forecasts = training::predicted_unseen(without_chains(plain.value()), scored.sequences,
-                                                    scored.splits, threads);
+  const auto forecasts = intention_scoring::predicted_unseen(
+      without_chains(plain.value()), scored.sequences, scored.splits, threads);
   if (!forecasts.has_value()) {
     return forecasts.error();
   }
-  comparison.add("LSTM without CRF",
-                 training::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
+  comparison.add("LSTM without CRF", intention_scoring::cross_calibrated(
+                                         scored.sequences, scored.splits, forecasts.value()));
   return std::nullopt;
 }
 
@@ -76,25 +77,26 @@ void add_baselines(MethodComparison& comparison, const ScoredSet& scored) {
     return all;
   };
   comparison.add("CRF by hand",
-                 by([](const Sequence& each) { return training::crf_by_hand(each); }));
+                 by([](const Sequence& each) { return intention_scoring::crf_by_hand(each); }));
   comparison.add("causal rule",
-                 by([](const Sequence& each) { return training::causal_rule(each); }));
-  comparison.add("constant motion", by(training::constant_motion));
+                 by([](const Sequence& each) { return intention_scoring::causal_rule(each); }));
+  comparison.add("constant motion", by(intention_scoring::constant_motion));
 }
 
 std::optional<Error> add_forecasts(MethodComparison& comparison, const std::string& file,
                                    const ScoredSet& scored) {
-  const auto set = training::read_forecasts(file);
+  const auto set = intention_scoring::read_forecasts(file);
   if (!set.has_value()) {
     return set.error();
   }
-  const auto forecasts = training::forecasts_of(set.value(), scored.sequences, file);
+  const auto forecasts = intention_scoring::forecasts_of(set.value(), scored.sequences, file);
   if (!forecasts.has_value()) {
     return forecasts.error();
   }
   comparison.add(set.value().model, forecasts.value());
-  comparison.add(set.value().model + ", calibrated as ours",
-                 training::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
+  comparison.add(
+      set.value().model + ", calibrated as ours",
+      intention_scoring::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
   return std::nullopt;
 }
 
@@ -130,29 +132,31 @@ Comparison finished(const MethodComparison& comparison) {
 /// A site that some model has never seen: by that model, and by those of the cross-validation.
 /// @return  nullopt: nothing was recorded there, or there is no cross-validation
 std::optional<Comparison> transfer(const ModelsByLeftOut& models, const std::string& site,
-                                   const training::SequenceSet& set, std::uint64_t seed,
+                                   const intention_scoring::SequenceSet& set, std::uint64_t seed,
                                    int threads) {
   const ScoredSet scored = recorded_of(set, site);
   if (scored.sequences.empty()) {
     return std::nullopt;
   }
-  MethodComparison comparison("Transfer: " + site, scored, training::recorded_classes, seed);
+  MethodComparison comparison("Transfer: " + site, scored, intention_scoring::recorded_classes,
+                              seed);
   if (add_unseen(comparison, "its site seen", models, scored, threads)) {
     return std::nullopt;
   }
   comparison.add("its site never seen",
-                 training::predicted(models.at(site), scored.sequences, threads));
+                 intention_scoring::predicted(models.at(site), scored.sequences, threads));
   return finished(comparison);
 }
 
 }  // namespace
 
-Result<Evaluation> evaluate(const training::SequenceSet& set, const ModelsByLeftOut& models,
-                            const Rivals& rivals, std::uint64_t seed, int threads) {
+Result<Evaluation> evaluate(const intention_scoring::SequenceSet& set,
+                            const ModelsByLeftOut& models, const Rivals& rivals, std::uint64_t seed,
+                            int threads) {
   Evaluation evaluation;
   const ScoredSet recorded = recorded_of(set);
   MethodComparison first("Recorded vehicles, by models that have not seen them (M, LC, RC, FB)",
-                         recorded, training::recorded_classes, seed);
+                         recorded, intention_scoring::recorded_classes, seed);
   if (const auto problem = compare_recorded(first, models, rivals, recorded, threads)) {
     return *problem;
   }
@@ -162,8 +166,9 @@ Result<Evaluation> evaluate(const training::SequenceSet& set, const ModelsByLeft
   const auto whole = models.find("nothing");
   if (whole != models.end() && !simulated.sequences.empty()) {
     MethodComparison comparison("Simulated vehicles (LB, RB)", simulated,
-                                training::simulated_classes, seed);
-    comparison.add("LSTM-CRF", training::predicted(whole->second, simulated.sequences, threads));
+                                intention_scoring::simulated_classes, seed);
+    comparison.add("LSTM-CRF",
+                   intention_scoring::predicted(whole->second, simulated.sequences, threads));
     evaluation.comparisons.push_back(finished(comparison));
   }
   for (const auto& [left_out, model] : models) {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "saca/base/core/result.h"
+#include "saca/lab/intention_scoring/displacement.h"
+#include "saca/lab/intention_scoring/evaluation.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/lab/intention_study/method_comparison.h"
-#include "saca/lab/training/displacement.h"
-#include "saca/lab/training/evaluation.h"
-#include "saca/lab/training/sequence_file.h"
 
 namespace saca::intention_study {
 
@@ -28,7 +28,7 @@ struct Comparison {
 /// What of intentions is recognised.
 struct Evaluation {
   std::vector<Comparison> comparisons;  ///< first of all that was recorded
-  training::Displacements
+  intention_scoring::Displacements
       displacements;  ///< where our forecasts say that recorded vehicles will be
 };
 
@@ -37,10 +37,11 @@ struct Evaluation {
 /// those that have.
 /// @param seed     of the groups that are drawn for intervals
 /// @param threads  >= 1; the result is the same for any number
-/// @return  what `training::predicted_unseen` says of a model that is missing; what cannot be read
+/// @return  what `intention_scoring::predicted_unseen` says of a model that is missing; what cannot
+/// be read
 ///          of the rivals
-[[nodiscard]] Result<Evaluation> evaluate(const training::SequenceSet& set,
-                                          const training::ModelsByLeftOut& models,
+[[nodiscard]] Result<Evaluation> evaluate(const intention_scoring::SequenceSet& set,
+                                          const intention_scoring::ModelsByLeftOut& models,
                                           const Rivals& rivals, std::uint64_t seed, int threads);
 
 /// What was said of recorded vehicles by our own models, for now, as a picture.

@@ -11,8 +11,8 @@
 namespace saca::intention_study {
 namespace {
 
+using intention_scoring::Interval;
 using nlohmann::json;
-using training::Interval;
 
 json number(const std::optional<double>& value) {
   return value ? json(*value) : json();
@@ -24,7 +24,7 @@ json interval_json(const std::optional<Interval>& interval) {
              : json();
 }
 
-json lead_times_json(const training::LeadTimes& lead_times) {
+json lead_times_json(const intention_scoring::LeadTimes& lead_times) {
   return {{"events", lead_times.events()},
           {"share_warned", number(lead_times.share_predicted())},
           {"lower_quartile_s", number(lead_times.quantile(0.25))},
@@ -32,13 +32,13 @@ json lead_times_json(const training::LeadTimes& lead_times) {
           {"upper_quartile_s", number(lead_times.quantile(0.75))}};
 }
 
-json events_json(const training::ManoeuvreEventsFound& found) {
+json events_json(const intention_scoring::ManoeuvreEventsFound& found) {
   json all = json::object();
-  for (std::size_t k = 1; k < training::num_vehicle_classes; ++k) {
+  for (std::size_t k = 1; k < intention_scoring::num_vehicle_classes; ++k) {
     json recalls = json::array();
-    for (std::size_t a = 0; a < training::ManoeuvreEventsFound::ages.size(); ++a) {
-      const training::ManoeuvreEventsFound::Share& frames = found.of[k].frames[a];
-      recalls.push_back({{"from_s", training::ManoeuvreEventsFound::ages[a]},
+    for (std::size_t a = 0; a < intention_scoring::ManoeuvreEventsFound::ages.size(); ++a) {
+      const intention_scoring::ManoeuvreEventsFound::Share& frames = found.of[k].frames[a];
+      recalls.push_back({{"from_s", intention_scoring::ManoeuvreEventsFound::ages[a]},
                          {"frames", frames.num},
                          {"recall", number(frames.share())}});
     }
@@ -50,16 +50,16 @@ json events_json(const training::ManoeuvreEventsFound& found) {
   return all;
 }
 
-json displacements_json(const training::Displacements& found) {
+json displacements_json(const intention_scoring::Displacements& found) {
   json all = json::array();
   for (const auto& [which, table] :
        {std::pair("all", &found.all), std::pair("acting", &found.acting)}) {
-    for (std::size_t f = 0; f < training::num_foresights; ++f) {
-      for (std::size_t k = 0; k < training::seconds_ahead.size(); ++k) {
-        const training::Displacement& one = (*table)[f][k];
+    for (std::size_t f = 0; f < intention_scoring::num_foresights; ++f) {
+      for (std::size_t k = 0; k < intention_scoring::seconds_ahead.size(); ++k) {
+        const intention_scoring::Displacement& one = (*table)[f][k];
         all.push_back({{"vehicles", which},
                        {"foresight", foresight_names[f]},
-                       {"ahead_s", training::seconds_ahead[k]},
+                       {"ahead_s", intention_scoring::seconds_ahead[k]},
                        {"frames", one.num},
                        {"mean_m", one.mean()},
                        {"rms_m", one.rms()}});
@@ -73,10 +73,10 @@ json displacements_json(const training::Displacements& found) {
 
 json method_json(const MethodFigures& method) {
   json heads = json::array();
-  for (std::size_t head = 0; head < training::num_heads; ++head) {
-    const training::Tally& tally = method.figures.tallies[head];
+  for (std::size_t head = 0; head < intention_scoring::num_heads; ++head) {
+    const intention_scoring::Tally& tally = method.figures.tallies[head];
     json classes = json::object();
-    for (std::size_t k = 0; k < training::num_vehicle_classes; ++k) {
+    for (std::size_t k = 0; k < intention_scoring::num_vehicle_classes; ++k) {
       classes[std::string(name(static_cast<intent::Intention>(k)))] = {
           {"frames", tally.confusion.truly(k)},
           {"recall", number(tally.confusion.recall(k))},

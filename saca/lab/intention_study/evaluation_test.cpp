@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "saca/lab/intention_scoring/forecast_file.h"
+#include "saca/lab/intention_scoring/intention_baselines.h"
 #include "saca/lab/intention_study/sets_for_test.h"
-#include "saca/lab/training/forecast_file.h"
-#include "saca/lab/training/intention_baselines.h"
 
 namespace saca::intention_study::evaluation_test {
 namespace {
@@ -22,8 +22,8 @@ std::vector<std::string> names_of(const Comparison& comparison) {
   return names;
 }
 
-training::ModelsByLeftOut shipped() {
-  auto models = training::read_models("models/intent");
+intention_scoring::ModelsByLeftOut shipped() {
+  auto models = intention_scoring::read_models("models/intent");
   EXPECT_TRUE(models.has_value());
   return std::move(models).value();
 }
@@ -47,7 +47,7 @@ TEST(AnEvaluation, ScoresWhatWasRecordedSimulatedAndSeenAtSitesThatModelsLeftOut
 }
 
 TEST(AnEvaluation, DoesWithoutWhatTheSetHasNot) {
-  training::SequenceSet set = small_set();
+  intention_scoring::SequenceSet set = small_set();
   set.sequences.resize(1);
   set.splits.resize(1);
   const auto found = evaluate(set, shipped(), {}, 1, 1);
@@ -59,12 +59,12 @@ TEST(AnEvaluation, DoesWithoutWhatTheSetHasNot) {
 TEST(AnEvaluation, HasRivalsInTheirOrder) {
   const std::string file = testing::TempDir() + "evaluation_test_forecasts.h5";
   const auto recorded = recorded_of(small_set());
-  training::ForecastSet foreign{.model = "foreign", .names = {}, .forecasts = {}};
+  intention_scoring::ForecastSet foreign{.model = "foreign", .names = {}, .forecasts = {}};
   for (const auto& sequence : recorded.sequences) {
     foreign.names.push_back(sequence.name);
-    foreign.forecasts.push_back(training::constant_motion(sequence));
+    foreign.forecasts.push_back(intention_scoring::constant_motion(sequence));
   }
-  ASSERT_EQ(training::write_forecasts(file, foreign), std::nullopt);
+  ASSERT_EQ(intention_scoring::write_forecasts(file, foreign), std::nullopt);
   const Rivals rivals{
       .plain_models = "models/intent", .other_models = "models/intent", .forecasts = {file}};
   const auto found = evaluate(small_set(), shipped(), rivals, 1, 2);
@@ -80,7 +80,7 @@ TEST(AnEvaluation, HasRivalsInTheirOrder) {
 }
 
 TEST(AnEvaluation, RefusesWhatIsMissing) {
-  training::SequenceSet set = small_set();
+  intention_scoring::SequenceSet set = small_set();
   EXPECT_THAT(evaluate(set, shipped(), {.other_models = "nowhere"}, 1, 1).error().message,
               HasSubstr("nowhere"));
   EXPECT_THAT(evaluate(set, shipped(), {.plain_models = "nobody"}, 1, 1).error().message,

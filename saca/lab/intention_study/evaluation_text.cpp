@@ -14,7 +14,7 @@
 namespace saca::intention_study {
 namespace {
 
-using training::Figures;
+using intention_scoring::Figures;
 using Text = std::back_insert_iterator<std::string>;
 
 std::string cell(const std::optional<double>& value, int digits = 3) {
@@ -45,15 +45,15 @@ void add_table(Text text, const Comparison& comparison) {
 }
 
 void add_confusion(Text text, const MethodFigures& row) {
-  for (std::size_t head = 0; head < training::num_heads; ++head) {
-    const training::Confusion& confusion = row.figures.tallies[head].confusion;
+  for (std::size_t head = 0; head < intention_scoring::num_heads; ++head) {
+    const intention_scoring::Confusion& confusion = row.figures.tallies[head].confusion;
     fmt::format_to(text, "\n{}, {:.1f} s ahead: truth in rows, predicted in columns\n{:>8}",
                    row.method, intent::horizons[head], "");
-    for (std::size_t k = 0; k < training::num_vehicle_classes; ++k) {
+    for (std::size_t k = 0; k < intention_scoring::num_vehicle_classes; ++k) {
       fmt::format_to(text, "{:>8}", name(static_cast<intent::Intention>(k)));
     }
     fmt::format_to(text, "{:>8} {:>9} {:>6}\n", "recall", "precision", "F1");
-    for (std::size_t k = 0; k < training::num_vehicle_classes; ++k) {
+    for (std::size_t k = 0; k < intention_scoring::num_vehicle_classes; ++k) {
       fmt::format_to(text, "{:>8}", name(static_cast<intent::Intention>(k)));
       for (const std::size_t count : confusion.counts[k]) {
         fmt::format_to(text, "{:>8}", count);
@@ -65,7 +65,7 @@ void add_confusion(Text text, const MethodFigures& row) {
 }
 
 void add_difference(Text text, const MethodFigures& row) {
-  for (std::size_t head = 0; head < training::num_heads; ++head) {
+  for (std::size_t head = 0; head < intention_scoring::num_heads; ++head) {
     const auto& f1 = row.macro_f1_difference[head];
     const auto& loss = row.log_loss_difference[head];
     if (f1 && loss) {
@@ -84,30 +84,30 @@ void add_acts(Text text, const MethodFigures& row) {
       text, "\n{}, now: acts found, and recall of their frames by the age of the act [s]\n{:8}",
       row.method, "");
   fmt::format_to(text, "{:>16}", "acts found");
-  for (const double age : training::ManoeuvreEventsFound::ages) {
+  for (const double age : intention_scoring::ManoeuvreEventsFound::ages) {
     fmt::format_to(text, "{:>8}", fmt::format("{:.1f}-", age));
   }
   fmt::format_to(text, "\n");
-  for (std::size_t k = 1; k < training::num_vehicle_classes; ++k) {
+  for (std::size_t k = 1; k < intention_scoring::num_vehicle_classes; ++k) {
     const auto& found = row.figures.events.of[k];
     fmt::format_to(text, "{:>8}{:>16}", name(static_cast<intent::Intention>(k)),
                    fmt::format("{} of {}", found.events.found, found.events.num));
-    for (const training::ManoeuvreEventsFound::Share& frames : found.frames) {
+    for (const intention_scoring::ManoeuvreEventsFound::Share& frames : found.frames) {
       fmt::format_to(text, "{:>8}", cell(frames.share(), 2));
     }
     fmt::format_to(text, "\n");
   }
 }
 
-void add_displacements(Text text, const training::Displacements& found) {
+void add_displacements(Text text, const intention_scoring::Displacements& found) {
   for (const auto& [title, table] :
        {std::pair("all vehicles in lanes", &found.all),
         std::pair("those that brake or change lanes", &found.acting)}) {
     fmt::format_to(text, "\nMean displacement error [m] after 1, 2, 3 s: {} ({} frames)\n", title,
                    (*table)[0][0].num);
-    for (std::size_t f = 0; f < training::num_foresights; ++f) {
+    for (std::size_t f = 0; f < intention_scoring::num_foresights; ++f) {
       fmt::format_to(text, "{:24}", foresight_names[f]);
-      for (const training::Displacement& each : (*table)[f]) {
+      for (const intention_scoring::Displacement& each : (*table)[f]) {
         fmt::format_to(text, " {:8.2f}", each.mean());
       }
       fmt::format_to(text, "\n");

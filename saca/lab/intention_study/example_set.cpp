@@ -8,20 +8,21 @@
 #include <tuple>
 #include <utility>
 
+#include "saca/lab/intention_scoring/examples.h"
+#include "saca/lab/intention_scoring/simulated.h"
+#include "saca/lab/intention_scoring/split.h"
 #include "saca/lab/recordings/set_file.h"
-#include "saca/lab/training/examples.h"
-#include "saca/lab/training/simulated.h"
-#include "saca/lab/training/split.h"
 
 namespace saca::intention_study {
 namespace {
 
-using training::Sequence;
-using training::SequenceSet;
+using intention_scoring::Sequence;
+using intention_scoring::SequenceSet;
 
 /// What one split holds.
 struct Share {
-  std::vector<std::size_t> frames = std::vector<std::size_t>(training::num_vehicle_classes, 0);
+  std::vector<std::size_t> frames =
+      std::vector<std::size_t>(intention_scoring::num_vehicle_classes, 0);
   std::set<std::string> groups;
   std::size_t doubtful = 0;
   std::size_t sequences = 0;
@@ -54,11 +55,11 @@ Result<SequenceSet> example_set(const ExampleRequest& request, int threads) {
     if (!set.has_value()) {
       return set.error();
     }
-    auto some = training::examples_of(set.value());
+    auto some = intention_scoring::examples_of(set.value());
     std::move(some.begin(), some.end(), std::back_inserter(recorded));
   }
   SequenceSet all;
-  for (const int part : training::parts_of(recorded, request.parts)) {
+  for (const int part : intention_scoring::parts_of(recorded, request.parts)) {
     all.splits.push_back(fmt::format("part-{}", part));
   }
   all.sequences = std::move(recorded);
@@ -66,7 +67,7 @@ Result<SequenceSet> example_set(const ExampleRequest& request, int threads) {
   for (const auto& [split, seed, count] :
        {std::tuple("simulated", request.seed, request.simulated),
         std::tuple("test", request.seed + 1, request.simulated / 2)}) {
-    for (Sequence& each : training::simulated_sequences(count, seed, threads)) {
+    for (Sequence& each : intention_scoring::simulated_sequences(count, seed, threads)) {
       each.name = fmt::format("{} {}", split, each.name);
       all.sequences.push_back(std::move(each));
       all.splits.emplace_back(split);
@@ -83,7 +84,7 @@ std::string shares_text(const SequenceSet& set) {
   for (const std::string& split : splits) {
     const Share share = share_of(set, split);
     text += fmt::format("{:12} {:9} {:8} {:8.2f} |", split, share.sequences, share.groups.size(),
-                        static_cast<double>(share.all) * training::frame_step / 3600.0);
+                        static_cast<double>(share.all) * intention_scoring::frame_step / 3600.0);
     for (const std::size_t count : share.frames) {
       text += fmt::format(" {}", count);
     }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "saca/base/core/result.h"
-#include "saca/lab/training/sequence_file.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 
 namespace saca::intention_study {
 
@@ -22,10 +22,11 @@ struct ExampleRequest {
 /// "part-1" and so on, simulated ones as "simulated" and, of another seed, as "test".
 /// @param threads  >= 1; the set is the same for any number
 /// @return  what cannot be read of a recorded set
-[[nodiscard]] Result<training::SequenceSet> example_set(const ExampleRequest& request, int threads);
+[[nodiscard]] Result<intention_scoring::SequenceSet> example_set(const ExampleRequest& request,
+                                                                 int threads);
 
 /// A table for people: of each split its sequences, groups and hours, and how many frames of each
 /// class it has.
-[[nodiscard]] std::string shares_text(const training::SequenceSet& set);
+[[nodiscard]] std::string shares_text(const intention_scoring::SequenceSet& set);
 
 }  // namespace saca::intention_study

@@ -25,8 +25,8 @@ TEST(Examples, AreRecordedOnesInPartsAndSimulatedOnesOfTwoSeeds) {
   const auto made = example_set(
       {.sets = {set_file("x"), set_file("y")}, .parts = 2, .simulated = 4, .seed = 5}, 2);
   ASSERT_TRUE(made.has_value()) << made.error().message;
-  const training::SequenceSet& set = made.value();
-  EXPECT_EQ(training::broken_rule(set), std::nullopt);
+  const intention_scoring::SequenceSet& set = made.value();
+  EXPECT_EQ(intention_scoring::broken_rule(set), std::nullopt);
   ASSERT_EQ(set.sequences.size(), 2U + 4U + 2U);
   EXPECT_EQ(set.sequences[0].site, "x");
   EXPECT_EQ(set.sequences[1].site, "y");
@@ -47,7 +47,7 @@ TEST(Examples, OfAFileThatIsNoneAreRefused) {
 }
 
 TEST(Shares, CountSequencesGroupsHoursAndFramesOfEachSplit) {
-  training::SequenceSet set = small_set();
+  intention_scoring::SequenceSet set = small_set();
   set.splits = {"part-0", "part-0", "simulated", "test"};
   set.sequences[1].scored[0] = false;
   set.sequences[1].group = set.sequences[0].group;
@@ -61,8 +61,8 @@ TEST(Shares, CountSequencesGroupsHoursAndFramesOfEachSplit) {
 }
 
 TEST(Shares, TellHoursOfFrames) {
-  training::SequenceSet set{.sequences = {recorded_sequence("a", "b", std::string(3'600, 'M'))},
-                            .splits = {"x"}};
+  intention_scoring::SequenceSet set{
+      .sequences = {recorded_sequence("a", "b", std::string(3'600, 'M'))}, .splits = {"x"}};
   EXPECT_THAT(shares_text(set), HasSubstr("     0.10 | 3600 "));  // 6 min
 }
 

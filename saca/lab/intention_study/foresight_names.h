@@ -3,12 +3,12 @@
 #include <array>
 #include <string_view>
 
-#include "saca/lab/training/displacement.h"
+#include "saca/lab/intention_scoring/displacement.h"
 
 namespace saca::intention_study {
 
-/// In the order of `training::Foresight`.
-constexpr std::array<std::string_view, training::num_foresights> foresight_names{
+/// In the order of `intention_scoring::Foresight`.
+constexpr std::array<std::string_view, intention_scoring::num_foresights> foresight_names{
     "constant velocity", "lane keeping", "likeliest intention", "mean over intentions"};
 
 }  // namespace saca::intention_study

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "saca/lab/training/bootstrap.h"
-#include "saca/lab/training/displacement.h"
-#include "saca/lab/training/evaluation.h"
-#include "saca/lab/training/sequence_file.h"
+#include "saca/lab/intention_scoring/bootstrap.h"
+#include "saca/lab/intention_scoring/displacement.h"
+#include "saca/lab/intention_scoring/evaluation.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/thinking/intent/motion.h"
 
 /// How well intentions are recognised: examples, ways to predict beside each other, what people
@@ -20,15 +20,16 @@ namespace saca::intention_study {
 
 /// Sequences that are scored together.
 struct ScoredSet {
-  std::vector<training::Sequence> sequences;
+  std::vector<intention_scoring::Sequence> sequences;
   std::vector<std::string> splits;  ///< one per sequence
 };
 
 /// What was recorded.
 /// @param site  only there; empty: everywhere
-[[nodiscard]] ScoredSet recorded_of(const training::SequenceSet& set, const std::string& site = "");
+[[nodiscard]] ScoredSet recorded_of(const intention_scoring::SequenceSet& set,
+                                    const std::string& site = "");
 /// Simulated vehicles that nothing was trained with: of the split "test".
-[[nodiscard]] ScoredSet simulated_of(const training::SequenceSet& set);
+[[nodiscard]] ScoredSet simulated_of(const intention_scoring::SequenceSet& set);
 
 /// The same without what the vehicles tell of their controls: no pedals, no steering.
 [[nodiscard]] ScoredSet nothing_shared(ScoredSet scored);
@@ -36,10 +37,12 @@ struct ScoredSet {
 /// One way to predict and its figures.
 struct MethodFigures {
   std::string method;
-  training::Figures figures;
+  intention_scoring::Figures figures;
   /// Our macro F1 less its, and our logarithmic loss less its; of ourselves there is none.
-  std::array<std::optional<training::Interval>, training::num_heads> macro_f1_difference;
-  std::array<std::optional<training::Interval>, training::num_heads> log_loss_difference;
+  std::array<std::optional<intention_scoring::Interval>, intention_scoring::num_heads>
+      macro_f1_difference;
+  std::array<std::optional<intention_scoring::Interval>, intention_scoring::num_heads>
+      log_loss_difference;
 };
 
 /// Everything that is compared on the same sequences; ours comes first.
@@ -52,19 +55,19 @@ class MethodComparison {
                    std::uint64_t seed);
 
   /// @param forecasts  one per sequence
-  void add(const std::string& method, std::vector<training::Forecasts> forecasts);
+  void add(const std::string& method, std::vector<intention_scoring::Forecasts> forecasts);
 
   [[nodiscard]] const std::string& title() const { return title_; }
   [[nodiscard]] const std::vector<MethodFigures>& methods() const { return methods_; }
   /// Where our own forecasts say that vehicles will be.
-  [[nodiscard]] training::Displacements displacements(const intent::MotionLaw& law) const;
+  [[nodiscard]] intention_scoring::Displacements displacements(const intent::MotionLaw& law) const;
 
  private:
   std::string title_;
   const ScoredSet& scored_;
   std::span<const std::size_t> classes_;
   std::uint64_t seed_;
-  std::vector<training::Forecasts> ours_;
+  std::vector<intention_scoring::Forecasts> ours_;
   std::vector<MethodFigures> methods_;
 };
 

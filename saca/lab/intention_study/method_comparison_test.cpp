@@ -9,11 +9,11 @@
 namespace saca::intention_study::method_comparison_test {
 namespace {
 
+using intention_scoring::Forecasts;
 using testing::ElementsAre;
-using training::Forecasts;
 
 TEST(ScoredSequences, AreWhatWasRecordedOrSimulatedToTestWith) {
-  const training::SequenceSet set = small_set();
+  const intention_scoring::SequenceSet set = small_set();
   EXPECT_THAT(recorded_of(set).splits, ElementsAre("part-0", "part-1"));
   const ScoredSet site = recorded_of(set, "lankershim");
   ASSERT_EQ(site.sequences.size(), 1U);
@@ -51,10 +51,11 @@ std::vector<Forecasts> right(const ScoredSet& scored, double sure) {
   std::vector<Forecasts> all(scored.sequences.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& labels = scored.sequences[i].labels;
-    for (std::size_t head = 0; head < training::num_heads; ++head) {
+    for (std::size_t head = 0; head < intention_scoring::num_heads; ++head) {
       for (std::size_t t = 0; t < labels.size(); ++t) {
-        const std::size_t then = std::min(t + training::frames_ahead[head], labels.size() - 1);
-        all[i].at[head].push_back(training::mostly(labels[then], sure));
+        const std::size_t then =
+            std::min(t + intention_scoring::frames_ahead[head], labels.size() - 1);
+        all[i].at[head].push_back(intention_scoring::mostly(labels[then], sure));
       }
     }
   }
@@ -63,10 +64,11 @@ std::vector<Forecasts> right(const ScoredSet& scored, double sure) {
 
 TEST(AComparison, HoldsEachMethodAgainstTheFirst) {
   const ScoredSet scored = four();
-  MethodComparison comparison("Four", scored, training::recorded_classes, 1);
+  MethodComparison comparison("Four", scored, intention_scoring::recorded_classes, 1);
   comparison.add("ours", right(scored, 0.9));
   comparison.add("as good, less sure", right(scored, 0.5));
-  comparison.add("M always", std::vector<Forecasts>(4, training::all_heads(std::string(40, 'M'))));
+  comparison.add("M always",
+                 std::vector<Forecasts>(4, intention_scoring::all_heads(std::string(40, 'M'))));
   ASSERT_EQ(comparison.methods().size(), 3U);
   EXPECT_EQ(comparison.title(), "Four");
   const MethodFigures& ours = comparison.methods()[0];
@@ -84,10 +86,11 @@ TEST(AComparison, TellsWhereOurForecastsSeeVehicles) {
   ScoredSet scored;
   scored.sequences = {recorded_sequence("a", "here", std::string(61, 'M'))};
   scored.splits = {"part-0"};
-  MethodComparison comparison("One", scored, training::recorded_classes, 1);
+  MethodComparison comparison("One", scored, intention_scoring::recorded_classes, 1);
   EXPECT_EQ(comparison.displacements({}).all[0][0].num, 0U);  // nothing was foretold
   comparison.add("ours", right(scored, 1.0));
-  comparison.add("other", std::vector<Forecasts>{training::all_heads(std::string(61, 'B'), 1.0)});
+  comparison.add("other",
+                 std::vector<Forecasts>{intention_scoring::all_heads(std::string(61, 'B'), 1.0)});
   const auto found = comparison.displacements({});
   for (const auto& foresight : found.all) {
     EXPECT_EQ(foresight[2].num, 7U);  // every half a second, 3 s before the end

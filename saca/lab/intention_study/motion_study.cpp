@@ -6,13 +6,13 @@
 #include <string_view>
 #include <utility>
 
-#include "saca/lab/training/examples.h"
+#include "saca/lab/intention_scoring/examples.h"
 
 namespace saca::intention_study {
 namespace {
 
-using training::LogNormal;
-using training::MotionFit;
+using intention_scoring::LogNormal;
+using intention_scoring::MotionFit;
 
 constexpr double scaled_to = 3.5;  // [m]: the width of the lanes that lane changes are scaled to
 
@@ -33,8 +33,9 @@ constexpr std::array<MeasuredQuantity, 4> measured{
 void MotionStudy::add(const recordings::RecordedSet& set) {
   for (const recordings::Recording& recording : set.recordings) {
     for (const recordings::RecordedVehicle& vehicle : recording.vehicles) {
-      if (vehicle.samples.size() >= training::fewest_frames) {
-        training::TrueMotion motion = training::true_motion(vehicle, recording.step);
+      if (vehicle.samples.size() >= intention_scoring::fewest_frames) {
+        intention_scoring::TrueMotion motion =
+            intention_scoring::true_motion(vehicle, recording.step);
         motions_["all"].push_back(motion);
         motions_[recording.site].push_back(std::move(motion));
       }
@@ -45,7 +46,7 @@ void MotionStudy::add(const recordings::RecordedSet& set) {
 std::vector<SiteMotion> MotionStudy::sites() const {
   std::vector<SiteMotion> sites;
   for (const auto& [site, some] : motions_) {
-    sites.push_back({.site = site, .fit = training::motion_fit(some, scaled_to)});
+    sites.push_back({.site = site, .fit = intention_scoring::motion_fit(some, scaled_to)});
   }
   return sites;
 }

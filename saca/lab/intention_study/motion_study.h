@@ -5,29 +5,29 @@
 #include <string>
 #include <vector>
 
+#include "saca/lab/intention_scoring/labels.h"
+#include "saca/lab/intention_scoring/motion_fit.h"
 #include "saca/lab/recordings/recorded_set.h"
-#include "saca/lab/training/labels.h"
-#include "saca/lab/training/motion_fit.h"
 
 namespace saca::intention_study {
 
 /// What is measured of one site's motions.
 struct SiteMotion {
   std::string site;  ///< "all": of all sites together
-  training::MotionFit fit;
+  intention_scoring::MotionFit fit;
 };
 
 /// Measures how people really brake and change lanes, in one recorded set after the other.
 class MotionStudy {
  public:
-  /// Tracks shorter than `training::fewest_frames` tell too little and are left out.
+  /// Tracks shorter than `intention_scoring::fewest_frames` tell too little and are left out.
   void add(const recordings::RecordedSet& set);
 
   /// Of each site in the alphabet's order; none where nothing was added.
   [[nodiscard]] std::vector<SiteMotion> sites() const;
 
  private:
-  std::map<std::string, std::vector<training::TrueMotion>> motions_;  ///< by site
+  std::map<std::string, std::vector<intention_scoring::TrueMotion>> motions_;  ///< by site
 };
 
 /// The document of `saca intent motion --json`: schema saca.intent_motion/1.

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "saca/lab/intention_scoring/examples.h"
 #include "saca/lab/intention_study/recordings_for_test.h"
-#include "saca/lab/training/examples.h"
 
 namespace saca::intention_study::motion_study_test {
 namespace {
@@ -15,7 +15,7 @@ TEST(AStudy, MeasuresEachSiteAndAllTogether) {
   EXPECT_TRUE(study.sites().empty());
   study.add(recorded_at("us101", recorded_vehicle(100, 4.0)));
   study.add(recorded_at("i80", recorded_vehicle(100, 0.0)));
-  study.add(recorded_at("short", recorded_vehicle(training::fewest_frames - 1, 0.0)));
+  study.add(recorded_at("short", recorded_vehicle(intention_scoring::fewest_frames - 1, 0.0)));
   const auto sites = study.sites();
   ASSERT_EQ(sites.size(), 3U);
   EXPECT_EQ(sites[0].site, "all");
@@ -27,7 +27,7 @@ TEST(AStudy, MeasuresEachSiteAndAllTogether) {
 }
 
 std::vector<SiteMotion> by_hand() {
-  training::MotionFit fit;
+  intention_scoring::MotionFit fit;
   fit.braking = {.num = 12, .median = 3.5, .log_sd = 0.25};
   fit.held = {.num = 5, .median = 0.5, .log_sd = 0.125};
   fit.acceleration.sd = 0.75;

@@ -14,8 +14,8 @@
 namespace saca::intention_study {
 namespace {
 
-using training::Forecasts;
-using training::Sequence;
+using intention_scoring::Forecasts;
+using intention_scoring::Sequence;
 
 /// nullopt: it has no label.
 std::optional<std::uint8_t> rarest_class(const Sequence& sequence) {
@@ -32,7 +32,7 @@ report::IntentionSample sample_of(const Sequence& sequence, const std::string& s
                                   const Forecasts* forecasts) {
   report::IntentionSample sample{.title = sequence.name,
                                  .lines = {sequence.site + ", " + sequence.group + ", " + split},
-                                 .step = training::frame_step,
+                                 .step = intention_scoring::frame_step,
                                  .seen = sequence.observations,
                                  .labels = {sequence.labels.begin(), sequence.labels.end()},
                                  .scored = sequence.scored,
@@ -49,9 +49,9 @@ report::IntentionSample sample_of(const Sequence& sequence, const std::string& s
 
 }  // namespace
 
-std::vector<std::size_t> drawn_samples(const training::SequenceSet& set,
+std::vector<std::size_t> drawn_samples(const intention_scoring::SequenceSet& set,
                                        const SampleRequest& request) {
-  std::vector<std::vector<std::size_t>> of_class(training::num_vehicle_classes);
+  std::vector<std::vector<std::size_t>> of_class(intention_scoring::num_vehicle_classes);
   std::vector<std::size_t> order(set.sequences.size());
   std::iota(order.begin(), order.end(), 0U);
   std::shuffle(order.begin(), order.end(), std::mt19937_64(request.seed));
@@ -76,7 +76,7 @@ std::vector<std::size_t> drawn_samples(const training::SequenceSet& set,
   return chosen;
 }
 
-std::vector<Sequence> sequences_of(const training::SequenceSet& set,
+std::vector<Sequence> sequences_of(const intention_scoring::SequenceSet& set,
                                    std::span<const std::size_t> chosen) {
   std::vector<Sequence> sequences;
   sequences.reserve(chosen.size());
@@ -86,8 +86,8 @@ std::vector<Sequence> sequences_of(const training::SequenceSet& set,
   return sequences;
 }
 
-report::IntentionPage sample_page(const training::SequenceSet& set, const SampleRequest& request,
-                                  std::span<const std::size_t> chosen,
+report::IntentionPage sample_page(const intention_scoring::SequenceSet& set,
+                                  const SampleRequest& request, std::span<const std::size_t> chosen,
                                   std::span<const Forecasts> forecasts) {
   expects(forecasts.empty() || forecasts.size() == chosen.size(), "one forecast per sample");
   report::IntentionPage page{

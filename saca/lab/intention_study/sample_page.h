@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "saca/lab/intention_scoring/score.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
 #include "saca/lab/report/intention_page.h"
-#include "saca/lab/training/score.h"
-#include "saca/lab/training/sequence_file.h"
 
 namespace saca::intention_study {
 
@@ -24,19 +24,18 @@ struct SampleRequest {
 /// Numbers of sequences of the set: each class's turn comes as often as any other's, so that rare
 /// ones are seen. A sequence counts for its rarest class. The same seed draws the same.
 /// @return  empty: none fits
-[[nodiscard]] std::vector<std::size_t> drawn_samples(const training::SequenceSet& set,
+[[nodiscard]] std::vector<std::size_t> drawn_samples(const intention_scoring::SequenceSet& set,
                                                      const SampleRequest& request);
 
 /// The sequences of these numbers.
-[[nodiscard]] std::vector<training::Sequence> sequences_of(const training::SequenceSet& set,
-                                                           std::span<const std::size_t> chosen);
+[[nodiscard]] std::vector<intention_scoring::Sequence> sequences_of(
+    const intention_scoring::SequenceSet& set, std::span<const std::size_t> chosen);
 
 /// The page of samples that were drawn.
 /// @param chosen     by drawn_samples()
 /// @param forecasts  what a model believes of each of them; empty: there is none
-[[nodiscard]] report::IntentionPage sample_page(const training::SequenceSet& set,
-                                                const SampleRequest& request,
-                                                std::span<const std::size_t> chosen,
-                                                std::span<const training::Forecasts> forecasts);
+[[nodiscard]] report::IntentionPage sample_page(
+    const intention_scoring::SequenceSet& set, const SampleRequest& request,
+    std::span<const std::size_t> chosen, std::span<const intention_scoring::Forecasts> forecasts);
 
 }  // namespace saca::intention_study

@@ -13,8 +13,8 @@ using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 /// Eight vehicles that maintain, two that brake.
-training::SequenceSet ten() {
-  training::SequenceSet set;
+intention_scoring::SequenceSet ten() {
+  intention_scoring::SequenceSet set;
   for (int i = 0; i < 10; ++i) {
     set.sequences.push_back(recorded_sequence(std::to_string(i), "here", i < 8 ? "MMMM" : "MMBB"));
     set.splits.emplace_back("part-0");
@@ -34,7 +34,7 @@ TEST(Samples, AreOfEachClassInTurn) {
 }
 
 TEST(Samples, AreOfASplitAndOfAName) {
-  const training::SequenceSet set = small_set();
+  const intention_scoring::SequenceSet set = small_set();
   EXPECT_THAT(drawn_samples(set, {}), UnorderedElementsAre(0U, 1U));  // what was recorded
   EXPECT_THAT(drawn_samples(set, {.split = "test"}), ElementsAre(3U));
   EXPECT_THAT(drawn_samples(set, {.name = "b"}), ElementsAre(1U));
@@ -43,13 +43,13 @@ TEST(Samples, AreOfASplitAndOfAName) {
 }
 
 TEST(ThePage, TellsWhatWasDrawnAndHoldsLabelsMarksAndBeliefs) {
-  training::SequenceSet set = small_set();
+  intention_scoring::SequenceSet set = small_set();
   set.sequences[1].crossing_times = {3.0};
   set.sequences[1].braking_times = {2.0};
   const std::vector<std::size_t> chosen{1};
-  const auto beliefs = training::all_heads(std::string(40, 'B'));
+  const auto beliefs = intention_scoring::all_heads(std::string(40, 'B'));
   const auto page = sample_page(set, {.source = "set.h5", .seed = 9}, chosen,
-                                std::vector<training::Forecasts>{beliefs});
+                                std::vector<intention_scoring::Forecasts>{beliefs});
   EXPECT_THAT(page.lines, ElementsAre("1 of set.h5, seed 9. Labels above, beliefs of the model "
                                       "below."));
   ASSERT_EQ(page.samples.size(), 1U);
@@ -65,10 +65,10 @@ TEST(ThePage, TellsWhatWasDrawnAndHoldsLabelsMarksAndBeliefs) {
 }
 
 TEST(ThePage, WithoutAModelHasNoBeliefs) {
-  const training::SequenceSet set = small_set();
+  const intention_scoring::SequenceSet set = small_set();
   const std::vector<std::size_t> chosen{0, 1};
   EXPECT_TRUE(sample_page(set, {}, chosen, {}).samples[1].bands.empty());
-  EXPECT_THROW((void)sample_page(set, {}, chosen, std::vector<training::Forecasts>(1)),
+  EXPECT_THROW((void)sample_page(set, {}, chosen, std::vector<intention_scoring::Forecasts>(1)),
                ContractViolation);
   EXPECT_EQ(sequences_of(set, chosen)[1].name, "b");
 }

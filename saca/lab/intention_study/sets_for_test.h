@@ -3,16 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "saca/lab/training/sequence_file.h"
-#include "saca/lab/training/sequences_for_test.h"
+#include "saca/lab/intention_scoring/sequence_file.h"
+#include "saca/lab/intention_scoring/sequences_for_test.h"
 
 namespace saca::intention_study {
 
 /// A recorded sequence at 10 m/s in the middle of a lane.
 /// @param letters  its labels: M, L, R, B, l, r
-inline training::Sequence recorded_sequence(const std::string& name, const std::string& site,
-                                            const std::string& letters) {
-  training::Sequence sequence = training::labelled(letters);
+inline intention_scoring::Sequence recorded_sequence(const std::string& name,
+                                                     const std::string& site,
+                                                     const std::string& letters) {
+  intention_scoring::Sequence sequence = intention_scoring::labelled(letters);
   sequence.name = name;
   sequence.group = name;
   sequence.site = site;
@@ -25,10 +26,10 @@ inline training::Sequence recorded_sequence(const std::string& name, const std::
 }
 
 /// Two recorded sequences of two sites, and three simulated ones, one of them to test with.
-inline training::SequenceSet small_set() {
+inline intention_scoring::SequenceSet small_set() {
   const std::string steady(40, 'M');
   const std::string braking = std::string(20, 'M') + std::string(20, 'B');
-  training::SequenceSet set{
+  intention_scoring::SequenceSet set{
       .sequences = {recorded_sequence("a", "us101", steady),
                     recorded_sequence("b", "lankershim", braking),
                     recorded_sequence("c", "", std::string(20, 'l')),

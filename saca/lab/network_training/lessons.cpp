@@ -7,20 +7,22 @@
 #include <string>
 #include <utility>
 
-#include "saca/lab/training/forecast_file.h"
+#include "saca/lab/intention_scoring/forecast_file.h"
 
 namespace saca::network_training {
 
 Result<Lessons> read_lessons(const std::filesystem::path& path,
-                             std::span<const training::Sequence> sequences,
-                             std::span<const training::Sequence> held_out) {
-  auto read = training::read_forecasts(path);
+                             std::span<const intention_scoring::Sequence> sequences,
+                             std::span<const intention_scoring::Sequence> held_out) {
+  auto read = intention_scoring::read_forecasts(path);
   if (!read.has_value()) {
     return read.error();
   }
-  const training::ForecastSet set = std::move(read).value();
+  const intention_scoring::ForecastSet set = std::move(read).value();
   const std::set<std::string> names(set.names.begin(), set.names.end());
-  const auto is_told = [&](const training::Sequence& one) { return names.count(one.name) > 0; };
+  const auto is_told = [&](const intention_scoring::Sequence& one) {
+    return names.count(one.name) > 0;
+  };
   const auto seen = std::find_if(held_out.begin(), held_out.end(), is_told);
   if (seen != held_out.end()) {
     return Error{Error::Code::malformed,
@@ -28,7 +30,7 @@ Result<Lessons> read_lessons(const std::filesystem::path& path,
                              "of {}, from which those of others have learnt",
                              path.string(), seen->name)};
   }
-  std::vector<training::Sequence> taught;
+  std::vector<intention_scoring::Sequence> taught;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     if (is_told(sequences[i])) {
@@ -40,11 +42,11 @@ Result<Lessons> read_lessons(const std::filesystem::path& path,
     return Error{Error::Code::malformed,
                  path.string() + ": want forecasts of sequences to be trained with, got none"};
   }
-  auto told = training::forecasts_of(set, taught, path.string());
+  auto told = intention_scoring::forecasts_of(set, taught, path.string());
   if (!told.has_value()) {
     return told.error();
   }
-  std::vector<training::Forecasts> forecasts = std::move(told).value();
+  std::vector<intention_scoring::Forecasts> forecasts = std::move(told).value();
   Lessons lessons;
   lessons.forecasts.resize(sequences.size());
   for (std::size_t k = 0; k < places.size(); ++k) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "saca/base/core/result.h"
-#include "saca/lab/training/score.h"
-#include "saca/lab/training/sequence.h"
+#include "saca/lab/intention_scoring/score.h"
+#include "saca/lab/intention_scoring/sequence.h"
 
 namespace saca::network_training {
 
@@ -17,7 +17,7 @@ struct Lessons {
   double share = 0.5;  ///< of the teacher in what a label is taken for, 0 ... 1
   /// One per sequence; without frames: of this one the labels alone are learnt. Empty: nobody
   /// teaches.
-  std::vector<training::Forecasts> forecasts;
+  std::vector<intention_scoring::Forecasts> forecasts;
 };
 
 /// What a file of format saca.forecasts/1 holds of sequences to be trained with.
@@ -26,7 +26,7 @@ struct Lessons {
 ///          where it has none at all, or predictions of one that is held out: whoever predicts each
 ///          part from all others has learnt from that one when it predicts the rest
 [[nodiscard]] Result<Lessons> read_lessons(const std::filesystem::path& path,
-                                           std::span<const training::Sequence> sequences,
-                                           std::span<const training::Sequence> held_out);
+                                           std::span<const intention_scoring::Sequence> sequences,
+                                           std::span<const intention_scoring::Sequence> held_out);
 
 }  // namespace saca::network_training

@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <string>
 
-#include "saca/lab/training/forecast_file.h"
+#include "saca/lab/intention_scoring/forecast_file.h"
 
 namespace saca::network_training::lessons_test {
 namespace {
 
 using testing::HasSubstr;
 
-training::Sequence sequence(const std::string& name, std::size_t num_frames) {
-  training::Sequence one;
+intention_scoring::Sequence sequence(const std::string& name, std::size_t num_frames) {
+  intention_scoring::Sequence one;
   one.name = name;
   one.observations.resize(num_frames);
   one.labels.resize(num_frames);
@@ -21,8 +21,8 @@ training::Sequence sequence(const std::string& name, std::size_t num_frames) {
   return one;
 }
 
-training::Forecasts forecasts(std::size_t num_frames, double maintains) {
-  training::Forecasts one;
+intention_scoring::Forecasts forecasts(std::size_t num_frames, double maintains) {
+  intention_scoring::Forecasts one;
   for (auto& head : one.at) {
     head.assign(num_frames, {maintains, 1.0 - maintains, 0.0, 0.0, 0.0, 0.0});
   }
@@ -32,7 +32,7 @@ training::Forecasts forecasts(std::size_t num_frames, double maintains) {
 class LessonsTest : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_FALSE(training::write_forecasts(
+    ASSERT_FALSE(intention_scoring::write_forecasts(
                      file_, {"trees", {"a", "c"}, {forecasts(3, 0.75), forecasts(2, 0.25)}})
                      .has_value());
   }
@@ -42,7 +42,8 @@ class LessonsTest : public testing::Test {
 };
 
 TEST_F(LessonsTest, AreOfEachSequenceThatTheFileTellsOf) {
-  const std::vector<training::Sequence> all{sequence("c", 2), sequence("b", 4), sequence("a", 3)};
+  const std::vector<intention_scoring::Sequence> all{sequence("c", 2), sequence("b", 4),
+                                                     sequence("a", 3)};
   const Lessons lessons = read_lessons(file_, all, {}).value();
   ASSERT_EQ(lessons.forecasts.size(), 3U);
   EXPECT_EQ(lessons.forecasts[0].at[1][1][0], 0.25);
@@ -52,8 +53,8 @@ TEST_F(LessonsTest, AreOfEachSequenceThatTheFileTellsOf) {
 
 // The mistake that made distillation look better than it is.
 TEST_F(LessonsTest, ATeacherThatHasSeenWhatIsHeldOutIsRefused) {
-  const std::vector<training::Sequence> training{sequence("a", 3)};
-  const std::vector<training::Sequence> held_out{sequence("b", 4), sequence("c", 2)};
+  const std::vector<intention_scoring::Sequence> training{sequence("a", 3)};
+  const std::vector<intention_scoring::Sequence> held_out{sequence("b", 4), sequence("c", 2)};
   const auto refused = read_lessons(file_, training, held_out);
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().code, Error::Code::malformed);
@@ -63,9 +64,9 @@ TEST_F(LessonsTest, ATeacherThatHasSeenWhatIsHeldOutIsRefused) {
 }
 
 TEST_F(LessonsTest, WhoTellsOfNoneOrOfOtherFramesIsRefused) {
-  const std::vector<training::Sequence> others{sequence("b", 4)};
+  const std::vector<intention_scoring::Sequence> others{sequence("b", 4)};
   EXPECT_THAT(read_lessons(file_, others, {}).error().message, HasSubstr("got none"));
-  const std::vector<training::Sequence> longer{sequence("a", 5)};
+  const std::vector<intention_scoring::Sequence> longer{sequence("a", 5)};
   EXPECT_THAT(read_lessons(file_, longer, {}).error().message, HasSubstr("saca_lessons.h5"));
   EXPECT_EQ(read_lessons("nowhere.h5", others, {}).error().code, Error::Code::unreadable);
 }

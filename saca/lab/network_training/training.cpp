@@ -8,15 +8,15 @@
 #include <utility>
 
 #include "saca/base/core/contract.h"
+#include "saca/lab/intention_scoring/score.h"
 #include "saca/lab/network_training/speed_noise.h"
-#include "saca/lab/training/score.h"
 #include "saca/thinking/intent/features.h"
 
 namespace saca::network_training {
 namespace {
 
 using intent::Feature;
-using training::Sequence;
+using intention_scoring::Sequence;
 
 constexpr auto columns = static_cast<std::int64_t>(intent::num_features);
 constexpr auto classes_predicted = static_cast<std::int64_t>(intent::num_classes);
@@ -24,7 +24,7 @@ constexpr auto rows_ahead = static_cast<std::int64_t>(intent::num_horizons);
 
 /// What frames [first, last) of a sequence are taught of their labels: the labels themselves, and
 /// by its share what a teacher predicts.   (rows x H x K)
-torch::Tensor taught_of(const torch::Tensor& labels, const training::Forecasts& teacher,
+torch::Tensor taught_of(const torch::Tensor& labels, const intention_scoring::Forecasts& teacher,
                         double share, std::size_t first) {
   torch::Tensor taught = torch::one_hot(labels, classes_predicted).to(torch::kFloat32);
   if (teacher.at[0].empty()) {
@@ -60,7 +60,7 @@ Piece piece_of(const Sequence& sequence, std::size_t first, std::size_t last) {
     const intent::Features now = memory.features();
     features = std::copy(now.begin(), now.end(), features);
     for (std::size_t h = 0; h < intent::num_horizons; ++h) {
-      const std::size_t later = t + training::frames_ahead[h];
+      const std::size_t later = t + intention_scoring::frames_ahead[h];
       if (later < sequence.labels.size()) {
         const auto row = static_cast<std::int64_t>(t - first);
         labels[row][static_cast<std::int64_t>(h)] = sequence.labels[later];
@@ -186,7 +186,8 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
   return network;
 }
 
-void set_calibrations(formats::Tensors& tensors, const training::Calibrations& calibrations) {
+void set_calibrations(formats::Tensors& tensors,
+                      const intention_scoring::Calibrations& calibrations) {
   formats::Tensor inverse_temperature{{intent::num_horizons}, {}};
   formats::Tensor bias{{intent::num_horizons, intent::num_classes}, {}};
   formats::Tensor naming = bias;

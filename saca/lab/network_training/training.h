@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "saca/base/core/result.h"
+#include "saca/lab/intention_scoring/calibration.h"
+#include "saca/lab/intention_scoring/sequence.h"
 #include "saca/lab/network_training/lessons.h"
 #include "saca/lab/network_training/lstm_crf.h"
 #include "saca/lab/network_training/task.h"
-#include "saca/lab/training/calibration.h"
-#include "saca/lab/training/sequence.h"
 
 namespace saca::network_training {
 
@@ -45,9 +45,9 @@ enum class PieceBegins : std::uint8_t {
 
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a
 /// horizon are those so many frames later; unknown where they are in doubt or after the end.
-[[nodiscard]] std::vector<Piece> pieces_of(const std::vector<training::Sequence>& sequences,
-                                           int longest, PieceBegins begins,
-                                           const Lessons& lessons = {});
+[[nodiscard]] std::vector<Piece> pieces_of(
+    const std::vector<intention_scoring::Sequence>& sequences, int longest, PieceBegins begins,
+    const Lessons& lessons = {});
 
 /// Trains one network, or goes on where an earlier run of the same plan on the same data was
 /// stopped.
@@ -58,8 +58,8 @@ enum class PieceBegins : std::uint8_t {
 /// @return          the network; Error::Code::malformed, naming the file, if the state is of
 /// another
 ///                  plan or data. When it was stopped it is as it is.
-[[nodiscard]] Result<LstmCrf> trained(const std::vector<training::Sequence>& sequences,
-                                      const std::vector<training::Sequence>& held_out,
+[[nodiscard]] Result<LstmCrf> trained(const std::vector<intention_scoring::Sequence>& sequences,
+                                      const std::vector<intention_scoring::Sequence>& held_out,
                                       const TrainingPlan& plan, const std::filesystem::path& state,
                                       const std::function<bool(const Epoch&)>& on_epoch,
                                       const Lessons& lessons = {});
@@ -69,6 +69,7 @@ enum class PieceBegins : std::uint8_t {
 [[nodiscard]] formats::Tensors model_tensors(const std::vector<LstmCrf>& networks);
 
 /// Puts calibrations into a model's tensors, in the place of those that are there.
-void set_calibrations(formats::Tensors& tensors, const training::Calibrations& calibrations);
+void set_calibrations(formats::Tensors& tensors,
+                      const intention_scoring::Calibrations& calibrations);
 
 }  // namespace saca::network_training

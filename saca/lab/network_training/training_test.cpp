@@ -9,9 +9,9 @@
 #include "saca/base/core/contract.h"
 #include "saca/base/core/file.h"
 #include "saca/base/formats/tensors.h"
-#include "saca/lab/training/predict.h"
-#include "saca/lab/training/score.h"
-#include "saca/lab/training/simulated.h"
+#include "saca/lab/intention_scoring/predict.h"
+#include "saca/lab/intention_scoring/score.h"
+#include "saca/lab/intention_scoring/simulated.h"
 #include "saca/thinking/intent/features.h"
 #include "saca/thinking/intent/model.h"
 
@@ -38,8 +38,8 @@ fs::path state_file(const char* name) {
 const auto all_epochs = [](const Epoch&) { return true; };
 
 TEST(Training, LearnsWhatIsThere) {
-  const auto sequences = training::simulated_sequences(60, 1, 1);
-  const auto others = training::simulated_sequences(30, 2, 1);
+  const auto sequences = intention_scoring::simulated_sequences(60, 1, 1);
+  const auto others = intention_scoring::simulated_sequences(30, 2, 1);
   TrainingPlan plan = short_plan();
   plan.epochs = 8;
   std::vector<Epoch> curve;
@@ -52,16 +52,16 @@ TEST(Training, LearnsWhatIsThere) {
   EXPECT_LT(*curve.back().held_out, 0.6 * *curve.front().held_out);
   const auto model = intent::model_from(model_tensors({network.value()}), "model");
   ASSERT_TRUE(model.has_value());
-  training::Tally sum;
-  const auto forecasts = training::predicted(model.value(), others, 1);
+  intention_scoring::Tally sum;
+  const auto forecasts = intention_scoring::predicted(model.value(), others, 1);
   for (std::size_t i = 0; i < others.size(); ++i) {
-    sum += training::tally(others[i], forecasts[i], 0);
+    sum += intention_scoring::tally(others[i], forecasts[i], 0);
   }
   EXPECT_GT(*sum.confusion.recall(3), 0.5);  // braking: of six classes, one in six by guessing
 }
 
 TEST(Training, IsTheSameBytesWhetherStoppedOrNot) {
-  const auto sequences = training::simulated_sequences(20, 1, 1);
+  const auto sequences = intention_scoring::simulated_sequences(20, 1, 1);
   const auto straight = trained(sequences, {}, short_plan(), {}, all_epochs);
   const fs::path state = state_file("saca_training_state.pt");
   const auto stopped = trained(sequences, {}, short_plan(), state,
@@ -79,7 +79,7 @@ TEST(Training, IsTheSameBytesWhetherStoppedOrNot) {
 }
 
 TEST(Training, WillNotGoOnWithAnother) {
-  const auto sequences = training::simulated_sequences(10, 1, 1);
+  const auto sequences = intention_scoring::simulated_sequences(10, 1, 1);
   const fs::path state = state_file("saca_training_other.pt");
   ASSERT_TRUE(trained(sequences, {}, short_plan(), state, all_epochs).has_value());
   TrainingPlan other = short_plan();
@@ -101,7 +101,7 @@ TEST(Training, WillNotGoOnWithAnother) {
 
 TEST(Training, CalibrationsTakeThePlaceOfThoseThatAreThere) {
   formats::Tensors tensors = model_tensors({LstmCrf(0.0)});
-  training::Calibrations calibrations;
+  intention_scoring::Calibrations calibrations;
   calibrations[1] = {.inverse_temperature = 0.5,
                      .bias = {0.0, -0.5, -0.5, 0.25, 0.125, 0.125},
                      .naming = {1.0, 2.0, 2.0, 0.5, 1.0, 1.0}};
@@ -115,7 +115,7 @@ TEST(Training, CalibrationsTakeThePlaceOfThoseThatAreThere) {
 }
 
 TEST(Pieces, LabelsAreThoseOfLater) {
-  training::Sequence sequence;
+  intention_scoring::Sequence sequence;
   for (int t = 0; t < 25; ++t) {
     sequence.observations.push_back({.speed = 10.0});
     sequence.labels.push_back(static_cast<std::uint8_t>(t >= 15 ? 3 : 0));
@@ -141,9 +141,9 @@ TEST(Pieces, LabelsAreThoseOfLater) {
   EXPECT_EQ(with_late[1].features[0][memory].item<float>(), 0.0F);  // a stream that begins
 }
 
-training::Forecasts all_predicted_as(std::size_t num_frames,
-                                     const training::ClassProbabilities& p) {
-  training::Forecasts forecasts;
+intention_scoring::Forecasts all_predicted_as(std::size_t num_frames,
+                                              const intention_scoring::ClassProbabilities& p) {
+  intention_scoring::Forecasts forecasts;
   for (auto& head : forecasts.at) {
     head.assign(num_frames, p);
   }
@@ -151,7 +151,7 @@ training::Forecasts all_predicted_as(std::size_t num_frames,
 }
 
 TEST(Pieces, AreTaughtLabelsAndByItsShareWhatATeacherForetells) {
-  training::Sequence sequence;
+  intention_scoring::Sequence sequence;
   for (int t = 0; t < 25; ++t) {
     sequence.observations.push_back({.speed = 10.0});
     sequence.labels.push_back(static_cast<std::uint8_t>(t >= 15 ? 3 : 0));
@@ -179,7 +179,7 @@ TEST(Pieces, AreTaughtLabelsAndByItsShareWhatATeacherForetells) {
 }
 
 TEST(Training, LearnsFromATeacherWhatNoLabelSays) {
-  const auto sequences = training::simulated_sequences(20, 1, 1);
+  const auto sequences = intention_scoring::simulated_sequences(20, 1, 1);
   Lessons lessons{.share = 1.0, .forecasts = {}};
   for (const auto& each : sequences) {  // of a teacher who is never sure
     lessons.forecasts.push_back(
@@ -198,7 +198,7 @@ TEST(Training, LearnsFromATeacherWhatNoLabelSays) {
     const auto model = intent::model_from(model_tensors({network}), "model");
     double sum = 0.0;
     double num = 0.0;
-    for (const auto& each : training::predicted(model.value(), sequences, 1)) {
+    for (const auto& each : intention_scoring::predicted(model.value(), sequences, 1)) {
       for (const auto& p : each.at[0]) {
         sum += *std::max_element(p.begin(), p.end());
         num += 1.0;
