@@ -36,11 +36,9 @@ constexpr int batch_capacity = 512;
 // busy machine steps vary by about two.
 constexpr double reserve_factor = 2.0;
 
-// A step reads all weights once, whatever it evaluates: measured, that takes as long as five tokens
-// (16 ms and 3.2 ms for each token on an AMD EPYC with bf16, 34 ms and 2.8 ms on one without).
-constexpr double weight_of_step(std::size_t tokens) {
-  return 5.0 + static_cast<double>(tokens);
-}
+// Of a scene's forced text at most so many tokens are evaluated in one step.
+constexpr std::size_t longest_run = 64;
+static_assert(longest_run * max_scenes <= batch_capacity);
 
 constexpr int rehearsed_tokens = 2;
 constexpr std::size_t telling_tokens = 64;  // a shorter prompt says nothing of a token's cost
@@ -113,7 +111,7 @@ class RecentCost {
 struct SceneProgress {
   std::size_t scene = 0;
   llama_pos position = 0;  // of the next token in its sequence
-  Tokens next;             // chosen or forced by the grammar, not yet evaluated
+  Tokens next;             // chosen or forced by the grammar, not yet evaluated or written
   int tokens = 0;
   std::string text;
   Utf8Splitter splitter;
@@ -142,7 +140,8 @@ struct Engine::State {
   llama_pos system_tokens = 0;
   Batch batch;
   // Outlive an ask: the first step of the next one is planned with them.
-  RecentCost step_cost;    // by its weight
+  RecentCost step_cost;    // of one token for each scene
+  RecentCost run_cost;     // of a token where the grammar forced several
   RecentCost answer_cost;  // of one scene
   ThreadChoice threads;
   double least_token_cost = std::numeric_limits<double>::max();  // of a prompt [s]
@@ -261,80 +260,104 @@ struct Engine::State {
     return deadline - from_seconds(reserve);
   }
 
-  // Takes a chosen token into the text. Sets `reasoning` to false when the reply ends before it.
-  void take(SceneProgress& thought, llama_token token, int max_tokens,
-            const EngineEvents& events) const {
-    if (llama_vocab_is_eog(vocab, token)) {
-      thought.reasoning = false;
-      thought.end = AnswerKind::ended;
-      return;
+  // A scene whose next tokens stand in the batch.
+  struct Running {
+    SceneProgress* thought;
+    Tokens tokens;
+    int last;  // index in the batch
+  };
+
+  // How many of a scene's next tokens a step may take: up to where its reply ends or states its
+  // answer. Sets `reasoning` to false when the reply has ended.
+  // @param most  tokens
+  [[nodiscard]] std::size_t writable(SceneProgress& thought, std::size_t most,
+                                     int max_tokens) const {
+    std::string text = thought.text;
+    std::size_t count = 0;
+    for (; count < std::min(most, thought.next.size()); ++count) {
+      const llama_token token = thought.next[count];
+      if (llama_vocab_is_eog(vocab, token) || text.ends_with(stated_answer) ||
+          thought.tokens + static_cast<int>(count) == max_tokens) {
+        break;
+      }
+      text += piece_of(vocab, token);
     }
-    if (thought.tokens == max_tokens) {
+    if (count == 0) {
       thought.reasoning = false;
-      return;
+      thought.end =
+          llama_vocab_is_eog(vocab, thought.next.front()) ? AnswerKind::ended : AnswerKind::forced;
     }
-    const std::string raw = piece_of(vocab, token);
+    return count;
+  }
+
+  // Puts so many of a scene's next tokens into the batch.
+  Running put(SceneProgress& thought, std::size_t count) {
+    const auto end = thought.next.begin() + static_cast<std::ptrdiff_t>(count);
+    Running running{&thought, Tokens(thought.next.begin(), end), -1};
+    for (std::size_t i = 0; i < count; ++i) {
+      running.last = batch.add(running.tokens[i], thought.position + static_cast<llama_pos>(i),
+                               sequence(thought.scene), i + 1 == count);
+    }
+    return running;
+  }
+
+  // Writes what a step has evaluated, and chooses what comes next.
+  void write(const Running& running, const EngineEvents& events) const {
+    SceneProgress& thought = *running.thought;
+    const std::string raw = text_of(vocab, running.tokens);
+    const auto count = static_cast<int>(running.tokens.size());
     thought.text += raw;
-    ++thought.tokens;
+    thought.tokens += count;
+    thought.position += count;
+    thought.next.erase(thought.next.begin(), thought.next.begin() + count);
     if (const std::string whole = thought.splitter.take(raw); !whole.empty()) {
       events.text(thought.scene, whole);
     }
     if (thought.text.ends_with(stated_answer)) {
-      thought.end = AnswerKind::ended;  // its token is still evaluated, then the answer is read
+      thought.end = AnswerKind::ended;  // the answer is read from here
+      thought.reasoning = false;
+    } else if (thought.next.empty()) {
+      thought.next = chosen(thought, running.last);
     }
   }
 
-  // A scene whose next tokens stand in the batch.
-  struct Running {
-    SceneProgress* thought;
-    int last;   // index in the batch
-    int count;  // of its tokens
-  };
-
-  // Takes what is next of a scene into its text, and puts it into the batch.
-  // @return  nullopt: its reply has ended
-  std::optional<Running> put_next(SceneProgress& thought, int max_tokens,
-                                  const EngineEvents& events) {
-    Tokens taken;
-    for (const llama_token token : thought.next) {
-      take(thought, token, max_tokens, events);
-      if (!thought.reasoning) {
-        break;
-      }
-      taken.push_back(token);
+  // Tokens of a step that takes at most so many of each scene.
+  static std::size_t step_size(const std::vector<SceneProgress>& thoughts, std::size_t most) {
+    std::size_t tokens = 0;
+    for (const SceneProgress& thought : thoughts) {
+      tokens += thought.reasoning ? std::min(most, thought.next.size()) : 0;
     }
-    if (taken.empty()) {
-      return std::nullopt;
-    }
-    const auto count = static_cast<int>(taken.size());
-    int last = -1;
-    for (int i = 0; i < count; ++i) {
-      last = batch.add(taken[static_cast<std::size_t>(i)], thought.position + i,
-                       sequence(thought.scene), i + 1 == count);
-    }
-    return Running{&thought, last, count};
+    return tokens;
   }
 
-  // The next tokens of each scene that still reasons.
+  // What a step is taken to cost, by what the last ones did [s].
+  [[nodiscard]] double expected_cost(std::size_t tokens, std::size_t scenes) const {
+    const double of_run = tokens > scenes ? run_cost.get() * static_cast<double>(tokens) : 0.0;
+    return std::max(step_cost.get(), of_run);
+  }
+
+  // The next tokens of each scene that still reasons: all that its grammar forces, or one of each
+  // where there is no time for more.
   // @return  false when the deadline leaves time for the final answers only
   bool reason_on(std::vector<SceneProgress>& thoughts, int max_tokens, Clock::Time deadline,
                  AskFigures& figures, const EngineEvents& events) {
     const Clock::Time stop = reserved(deadline, thoughts.size());
     const Clock::Time begin = clock->now();
-    std::size_t wanted = 0;
-    for (const SceneProgress& thought : thoughts) {
-      wanted += thought.reasoning ? thought.next.size() : 0;
-    }
-    if (begin + from_seconds(reserve_factor * step_cost.get() * weight_of_step(wanted)) >= stop) {
+    const std::size_t scenes = step_size(thoughts, 1);
+    const auto fits = [&](std::size_t most) {
+      const double cost = expected_cost(step_size(thoughts, most), scenes);
+      return begin + from_seconds(reserve_factor * cost) < stop;
+    };
+    const std::size_t most = fits(longest_run) ? longest_run : 1;
+    if (!fits(most)) {
       return false;
     }
     batch.clear();
     std::vector<Running> running;
     for (SceneProgress& thought : thoughts) {
-      if (thought.reasoning) {
-        if (const auto put = put_next(thought, max_tokens, events)) {
-          running.push_back(*put);
-        }
+      if (const std::size_t count = thought.reasoning ? writable(thought, most, max_tokens) : 0;
+          count > 0) {
+        running.push_back(put(thought, count));
       }
     }
     if (running.empty()) {
@@ -344,32 +367,28 @@ struct Engine::State {
     if (!evaluate(stop)) {
       for (const Running& one : running) {  // nothing half done stays in the cache
         forget_from(one.thought->scene, one.thought->position);
-        one.thought->end = AnswerKind::forced;
       }
       return false;
     }
-    note_step(running, to_seconds(clock->now() - begin), computed_before, figures);
+    note_step(running.size(), to_seconds(clock->now() - begin), computed_before, figures);
     for (const Running& one : running) {
-      SceneProgress& thought = *one.thought;
-      thought.position += one.count;
-      thought.reasoning = thought.reasoning && thought.end != AnswerKind::ended;
-      if (thought.reasoning) {
-        thought.next = chosen(thought, one.last);
-      }
+      write(one, events);
     }
     return true;
   }
 
-  // Learns from what a step took.
-  void note_step(const std::vector<Running>& running, double cost, double computed_before,
-                 AskFigures& figures) {
+  // Learns from what a step of so many scenes took.
+  void note_step(std::size_t scenes, double cost, double computed_before, AskFigures& figures) {
     figures.reply_seconds += cost;
-    const double weight = weight_of_step(static_cast<std::size_t>(batch.size()));
-    step_cost.add(cost / weight);
-    const double of_one_each = cost * weight_of_step(running.size()) / weight;
-    if (threads.note_step(running.size(), of_one_each, computing(computed_before, cost))) {
+    if (const auto tokens = static_cast<std::size_t>(batch.size()); tokens > scenes) {
+      run_cost.add(cost / static_cast<double>(tokens));
+      return;
+    }
+    step_cost.add(cost);
+    if (threads.note_step(scenes, cost, computing(computed_before, cost))) {
+      run_cost = {};
       step_cost = {};
-      step_cost.add(threads.step_alone(running.size()) / weight_of_step(running.size()));
+      step_cost.add(threads.step_alone(scenes));
     }
   }
 

@@ -199,6 +199,40 @@ TEST_F(HostTest, NoPromptIsLongerThanItsBound) {
   }
 }
 
+// However much a grammar forces at once, and wherever that must end.
+TEST_F(HostTest, WhatMustComeKeepsToEveryBound) {
+  std::string very_long;
+  for (int k = 0; k < 100; ++k) {
+    very_long += "The truck is near. ";
+  }
+  const auto ask = [&](int max_tokens, const std::vector<std::string>& grammars) {
+    language_model::ChildModel model(settings(max_tokens), clock_);
+    const std::vector<std::string> scenes(grammars.size(), scene_);
+    auto replies = model.ask(scenes, clock_.now() + patience, nobody_, {.grammars = grammars});
+    EXPECT_EQ(model.restarts(), 0);
+    return replies;
+  };
+  // More than fits into a step, three times.
+  const std::string endless = "root ::= \"" + very_long + "\"\n";
+  const auto many = ask(400, {endless, endless, endless});
+  ASSERT_TRUE(many.has_value()) << many.error().message;
+  for (const language_model::Reply& reply : many.value()) {
+    EXPECT_EQ(reply.reply_tokens, 400);
+    EXPECT_TRUE(very_long.starts_with(reply.reasoning)) << reply.reasoning;
+    EXPECT_EQ(reply.answers.back().kind, Answer::Kind::forced);
+  }
+  // As much as is asked for; up to the answer; in whole characters.
+  const auto some = ask(7, {endless, "root ::= \"Go.\\nResponse to user: 3 and more\"\n",
+                            "root ::= \"caf\" (\"\u00e9\" | \"\u00e8\")\n"});
+  ASSERT_TRUE(some.has_value()) << some.error().message;
+  EXPECT_EQ(some.value()[0].reply_tokens, 7);
+  EXPECT_EQ(some.value()[0].answers.back().kind, Answer::Kind::forced);
+  EXPECT_EQ(some.value()[1].reasoning, "Go.\nResponse to user:");
+  EXPECT_EQ(some.value()[1].answers.back().kind, Answer::Kind::ended);
+  EXPECT_TRUE(some.value()[2].reasoning == "caf\u00e9" || some.value()[2].reasoning == "caf\u00e8")
+      << some.value()[2].reasoning;
+}
+
 // Text that a grammar leaves no choice about is not asked for, token by token. The same grammar
 // written with more of the notation, which nobody here follows, leads to the same text.
 TEST_F(HostTest, WhatMustComeIsWrittenAsIfItHadBeenChosen) {

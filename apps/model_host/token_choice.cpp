@@ -7,6 +7,7 @@
 
 #include "saca/thinking/language_model/language_model.h"
 #include "tokens.h"
+#include "utf8.h"
 
 namespace saca::model_host {
 namespace {
@@ -32,7 +33,9 @@ bool is_digit(char c) {
 }
 
 // Whether a token that ends with this byte may be a longer one with one of those behind it. The
-// tokeniser never joins a digit, or letters with what is none; a space it joins with what follows.
+// tokeniser of SmolLM2 never joins a digit, or letters with what is none; a space it joins with
+// what follows. Of another one this may be false: then a text is cut in a way that the model would
+// not have chosen, and is what the grammar forces all the same.
 bool may_grow(char last, std::string_view next) {
   return !is_digit(last) && std::any_of(next.begin(), next.end(), [last](char c) {
     return is_letter(last) == is_letter(c) || last == ' ';
@@ -84,22 +87,23 @@ void TokenChoice::take(llama_token token) {
 }
 
 std::vector<llama_token> TokenChoice::forced() {
-  const std::string text = walk_ ? walk_->forced() : "";
-  if (text.empty()) {
+  const std::string text = walk_ ? text_ + walk_->forced() : "";
+  // Up to the last whole character: no tokeniser has a part of one.
+  const std::string whole = Utf8Splitter().take(text);
+  if (whole.size() <= text_.size()) {
     return {};
   }
-  std::vector<llama_token> all = tokens_of(vocab_, text_ + text, false);
-  // Who chose tokens in another way than the tokeniser would goes on alone.
-  if (all.size() <= tokens_.size() || !std::equal(tokens_.begin(), tokens_.end(), all.begin())) {
-    return {};
-  }
+  std::vector<llama_token> all = tokens_of(vocab_, whole, false);
   language_model::GrammarWalk behind = *walk_;
-  behind.take(text);
-  if (may_grow(text.back(), behind.possible())) {
-    all.pop_back();
+  behind.take(std::string_view(whole).substr(text_.size()));
+  // Who chose tokens in another way than the tokeniser would goes on alone.
+  if (all.size() <= tokens_.size() || !std::equal(tokens_.begin(), tokens_.end(), all.begin()) ||
+      text_of(vocab_, all) != whole) {
+    return {};
   }
+  const std::ptrdiff_t kept = may_grow(whole.back(), behind.possible()) ? 1 : 0;
   std::vector<llama_token> tokens(all.begin() + static_cast<std::ptrdiff_t>(tokens_.size()),
-                                  all.end());
+                                  all.end() - kept);
   for (const llama_token token : tokens) {
     take(token);
   }

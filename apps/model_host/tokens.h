@@ -29,4 +29,13 @@ namespace saca::model_host {
   return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
 }
 
+[[nodiscard]] inline std::string text_of(const llama_vocab* vocab,
+                                         const std::vector<llama_token>& tokens) {
+  std::string text;
+  for (const llama_token token : tokens) {
+    text += piece_of(vocab, token);
+  }
+  return text;
+}
+
 }  // namespace saca::model_host

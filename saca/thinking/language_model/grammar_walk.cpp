@@ -200,16 +200,21 @@ GrammarWalk::GrammarWalk(std::shared_ptr<const Nodes> nodes, int root) : nodes_(
   add(*nodes_, root, here_);
 }
 
-void GrammarWalk::add(const Nodes& nodes, int node, std::vector<int>& all) {
-  const Node& it = nodes[static_cast<std::size_t>(node)];
-  if (node == the_end || it.is_byte) {
-    if (std::find(all.begin(), all.end(), node) == all.end()) {
-      all.push_back(node);
+void GrammarWalk::add(const Nodes& nodes, int first, std::vector<int>& all) {
+  std::vector<int> left{first};
+  std::set<int> seen(all.begin(), all.end());
+  while (!left.empty()) {
+    const int node = left.back();
+    left.pop_back();
+    if (!seen.insert(node).second) {
+      continue;
     }
-    return;
-  }
-  for (const int next : it.next) {
-    add(nodes, next, all);
+    const Node& it = nodes[static_cast<std::size_t>(node)];
+    if (node == the_end || it.is_byte) {
+      all.push_back(node);
+    } else {
+      left.insert(left.end(), it.next.begin(), it.next.end());
+    }
   }
 }
 

@@ -42,8 +42,8 @@ class GrammarWalk {
   using Nodes = std::vector<Node>;
 
   GrammarWalk(std::shared_ptr<const Nodes> nodes, int root);
-  /// Adds a node, or in its place all that can be reached from it without a byte.
-  static void add(const Nodes& nodes, int node, std::vector<int>& all);
+  /// Adds a node, or in its place all that can be reached from it without a byte, each once.
+  static void add(const Nodes& nodes, int first, std::vector<int>& all);
   [[nodiscard]] std::vector<int> behind(const std::vector<int>& here, char byte) const;
   [[nodiscard]] std::string bytes_at(const std::vector<int>& here) const;
 
