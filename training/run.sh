@@ -60,12 +60,10 @@ case $command in
     "$saca" memory --memory "$work/shipped.sqlite" import "$work/shipped.jsonl" --keep-trust
     "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" -o "$work/sets"
     "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" --cues cues -o "$work/cues"
-    tune "$work/sets" "$work/first" --steps 300
-    tune "$work/sets" "$work/tuned" --also "$work/cues" --begin-with "$work/first/kept.pt" --steps 180 --rate 5e-4 --harm-scale 0.01
-    tune "$work/sets" "$work/third" --also "$work/cues" --begin-with "$work/tuned/adapter.gguf" --steps 110 --rate 5e-4 --warm-up 10 --harm-scale 0.01
-    cp "$work/third/adapter.gguf" "$work/third/training.json" "$root/models/language/"
+    tune "$work/sets" "$work/tuned" --also "$work/cues" --steps 400 --harm-scale 0.01
+    cp "$work/tuned/adapter.gguf" "$work/tuned/training.json" "$root/models/language/"
     for output in "$root/models/language/curve.csv" "$root/docs/language_model/curve.svg"; do
-      python3 "$here/curve.py" "$work/first/curve.csv" "$work/tuned/curve.csv" "$work/third/curve.csv" "$output"
+      python3 "$here/curve.py" "$work/tuned/curve.csv" "$output"
     done
     echo "the adapter: models/language/adapter.gguf; make model merges it"
     ;;

@@ -40,7 +40,7 @@ def test_score_is_of_what_was_carried_out_and_goes_on(server, tmp_path):
 
     told, asked = score(2), len(server.asked)
     assert told["schema"] == "saca.model_score/2" and told["encounters"] == 2 and "some-model" in told["model"]
-    with_facts = {"## Manoeuvres:" in question["messages"][-1]["content"] for question in server.asked}
+    with_facts = {"Least harm:" in question["messages"][-1]["content"] for question in server.asked}
     assert with_facts == {False, True}
     choices = told["choices"]
     assert abs(choices["best_in_hindsight"]["regret"]["mean"]) < 0.003

@@ -32,7 +32,7 @@ def replies_to(scenario, folder):
     run = saca("reason", scenario, "--llm", f"replay:{nobody}", cwd=folder)
     assert run.returncode == BAD_INPUT  # it knows no prompt; the question is told all the same
     prompts = [forecast.split("---\n", 1)[1].split("\n--- Forecast", 1)[0].rstrip("\n") + "\n" for forecast in run.stdout.split("trigger at")[1:]]
-    assert prompts and all(one.startswith("# Collision avoidance scenario") and "## Manoeuvres:" in one for one in prompts)
+    assert prompts and all(one.startswith("ego: ") and "Least harm:" in one for one in prompts)
     answers = [{"after_ns": 50_000_000, "kind": "first", "probability": [0.25, 0.75, 0, 0, 0, 0, 0, 0]},
                {"after_ns": 120_000_000, "kind": "ended", "probability": [0.875, 0.125, 0, 0, 0, 0, 0, 0]}]
     reply = {"reasoning": "Scenario Analysis\n1. AEB is clear.\n2. Grip 0.90, speed 14.0 m/s, and 99.5 m.\nResponse to user: 0",
@@ -68,7 +68,7 @@ def test_reasons_by_the_figures_are_those_of_the_prompt(tmp_path):
     told = json.loads(saca("reason", "lead_brakes_follower", "--llm", f"replay:{replies_to('lead_brakes_follower', tmp_path)}", "--json", cwd=tmp_path).stdout)
     (forecast,) = told["forecasts"]
     assert forecast["explanation"]["from"] == "facts"
-    harms = re.findall(r"harm \d\.\d{4}", forecast["explanation"]["text"])
+    harms = re.findall(r"harm \d+\.\d{1,3}(?!\d)", forecast["explanation"]["text"])
     assert harms and all(harm in forecast["prompt"] for harm in harms)
 
 
@@ -98,7 +98,7 @@ def test_a_server_can_be_asked(server, tmp_path):
     again = server.asked[forecasts:]
     assert [(asked["seed"], asked["temperature"]) for asked in again] == [(1, 0.7), (2, 0.7)] * forecasts
     for asked in server.asked:
-        assert asked["model"] == "some-model" and "## Manoeuvres:" in asked["messages"][-1]["content"]
+        assert asked["model"] == "some-model" and "Least harm:" in asked["messages"][-1]["content"]
 
 
 def test_its_key_is_told_to_nobody(server, tmp_path):

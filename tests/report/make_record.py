@@ -233,10 +233,9 @@ def preview(index, encounter, s, trigger, ready, policy, share, gate):
              "actors": [{"id": m.name, **pose_fields(encounter.road.to_world(a[0] + 0.8 + 1.5 * index, *a[1:3]), a[3])}
                         for m in movers for a in [m.at(trigger)]]}
     lines = "\n".join(f"{f['policy']} {f['name']}: {f['text']}" for f in facts_of(rows, encounter.speed))
-    prompt = ("# Collision avoidance scenario (synthetic test data)\n## Ego Vehicle:\n"
-              f"ego, velocity {encounter.speed:.1f} m/s, road straight, grip {encounter.grip}\n"
-              "## Traffic Participants:\n" + "\n".join(f"{m.name}: speed {m.at(trigger)[3]:.1f} m/s" for m in movers)
-              + f"\n## Manoeuvres:\n{lines}\n## Historical Scenarios:\nnone\n")
+    prompt = (f"ego: {encounter.speed:.1f} m/s, straight, grip {encounter.grip} (synthetic test data)\n"
+              + "\n".join(f"{m.name}: speed {m.at(trigger)[3]:.1f} m/s" for m in movers)
+              + f"\nMore harm:\n{lines}\nno case is alike\n")
     asked = gate != "cache"
     return {"probability": share, "ready_s": ready, "scene": scene, "actors": actors,
             "facts": facts_of(rows, encounter.speed),

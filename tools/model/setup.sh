@@ -110,6 +110,25 @@ unpack_llama() {  # leaves llama.cpp's sources in $source
     "llama_cpp_python-$version/vendor/llama.cpp"
 }
 
+# What the folder of another adapter has for this processor is linked, not built and fetched again.
+take_over() {
+  local other built
+  for other in "$(dirname "$third_party")"/third_party-*; do
+    if [ "$other" = "$third_party" ] || [ ! -d "$other" ]; then continue; fi
+    for built in llama llama-server; do
+      if [ -e "$(stamp_in "$other/$built")" ] && [ ! -e "$(stamp_in "$third_party/$built")" ]; then
+        rm -rf "${third_party:?}/$built" "$third_party/$built.part"
+        cp -al "$other/$built" "$third_party/$built.part"
+        mv "$third_party/$built.part" "$third_party/$built"
+      fi
+    done
+    if [ -e "$other/models/$shipped" ] && [ ! -e "$models/$shipped" ]; then
+      mkdir -p "$models"
+      cp -l "$other/models/$shipped" "$models/$shipped"
+    fi
+  done
+}
+
 build_llama() {
   local source build stamp
   stamp=$(stamp_in "$third_party/llama")
@@ -223,6 +242,7 @@ downloads=$third_party/downloads
 models=$third_party/models
 exec 9>"$third_party/.lock"
 flock 9
+take_over
 build_llama
 if [ "$what" != llama ]; then
   get_weights

@@ -6,7 +6,8 @@
 //   measures each file on this processor and writes to OUT which one to use: the fastest of those
 //   that decide as REFERENCE does; and whether it is faster with flash attention. Exit code 3: the
 //   machine is too busy to measure anything.
-//   PROMPTS: the system part, then scenes, parted by lines "====".
+//   PROMPTS: the system part, then up to three scenes, each behind a line "====" and before a line
+//   "----" and the grammar of what may be said of it.
 #include <llama.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "adapter.h"
@@ -27,8 +29,9 @@ namespace {
 using saca::model_host::AskFigures;
 using saca::model_host::Engine;
 
-constexpr int rounds = 3;         // the best of them counts: the machine may be busy
-constexpr int reply_tokens = 60;  // per scene and round: as many as replies have
+constexpr int rounds = 3;                // the best of them counts: the machine may be busy
+constexpr int reply_tokens = 100;        // per scene and round, at most: replies end before
+constexpr std::size_t usual_reply = 47;  // tokens
 // A round that takes longer than this measures how busy the machine is, not the weights [s].
 constexpr auto longest_round = std::chrono::seconds(30);
 constexpr std::string_view too_busy = "machine too busy to measure";
@@ -45,7 +48,7 @@ struct Measurement {
   std::vector<std::vector<double>> probabilities;  // per scene, of the eight answers
   double prompt_rate = 0.0;                        // [tokens/s]
   double reply_rate = 0.0;                         // three scenes together [tokens/s]
-  double seconds = 1e9;                            // the three scenes, prompts and replies
+  double seconds = 1e9;  // the three scenes, prompts and replies of usual length
 };
 
 std::vector<double> softmax(std::vector<double> logits) {
@@ -61,17 +64,29 @@ std::vector<double> softmax(std::vector<double> logits) {
   return logits;
 }
 
-std::vector<std::string> parts(const std::string& path) {
+// What is asked: what all scenes share, and each with the grammar of what may be said of it.
+struct Prompts {
+  std::string system;
+  std::vector<std::string> scenes;
+  std::vector<std::string> grammars;
+};
+
+// nullopt: each scene wants its grammar.
+std::optional<Prompts> read_prompts(const std::string& path) {
   std::ifstream file(path);
-  std::vector<std::string> result(1);
+  Prompts prompts;
+  std::string* part = &prompts.system;
   for (std::string line; std::getline(file, line);) {
-    if (line == "====") {
-      result.emplace_back();
+    if (line == "====" && prompts.scenes.size() == prompts.grammars.size()) {
+      part = &prompts.scenes.emplace_back();
+    } else if (line == "----" && prompts.scenes.size() == prompts.grammars.size() + 1) {
+      part = &prompts.grammars.emplace_back();
     } else {
-      result.back() += line + '\n';
+      *part += line + '\n';
     }
   }
-  return result;
+  return prompts.scenes.size() == prompts.grammars.size() ? std::optional(std::move(prompts))
+                                                          : std::nullopt;
 }
 
 int fail(const std::string& message) {
@@ -98,9 +113,9 @@ int make(const std::string& type, const std::string& in, const std::string& out)
 }
 
 // One round of a file: its best figures so far are kept. Empty, or what went wrong.
-std::string measure(Engine& engine, const std::vector<std::string>& scenes, Measurement& m) {
+std::string measure(Engine& engine, const Prompts& prompts, Measurement& m) {
   saca::SteadyClock clock;
-  m.probabilities.resize(scenes.size());
+  m.probabilities.resize(prompts.scenes.size());
   const saca::model_host::EngineEvents events{
       [](std::size_t, int) {}, [](std::size_t, std::string_view) {},
       [&](std::size_t scene, saca::model_host::AnswerKind kind, const std::vector<double>& logits) {
@@ -110,7 +125,8 @@ std::string measure(Engine& engine, const std::vector<std::string>& scenes, Meas
       }};
   const auto begin = clock.now();
   const auto asked =
-      engine.ask(scenes, begin + longest_round, {.max_tokens = reply_tokens}, clock, events);
+      engine.ask(prompts.scenes, begin + longest_round,
+                 {.max_tokens = reply_tokens, .grammars = prompts.grammars}, clock, events);
   if (!asked.has_value()) {
     return asked.error().message;
   }
@@ -122,12 +138,15 @@ std::string measure(Engine& engine, const std::vector<std::string>& scenes, Meas
   }
   m.prompt_rate = std::max(m.prompt_rate, prompt / f.prompt_seconds);
   m.reply_rate = std::max(m.reply_rate, reply / f.reply_seconds);
-  m.seconds = std::min(m.seconds, std::chrono::duration<double>(clock.now() - begin).count());
+  // Replies of other weights are of other length: each token counts as much as its like.
+  m.seconds = std::min(
+      m.seconds, f.prompt_seconds + f.reply_seconds / reply *
+                                        static_cast<double>(usual_reply * prompts.scenes.size()));
   return {};
 }
 
 // All files turn by turn, so that a machine that gets busy slows them all.
-std::string measure_all(const std::vector<std::string>& prompts, std::vector<Measurement>& all) {
+std::string measure_all(const Prompts& prompts, std::vector<Measurement>& all) {
   saca::SteadyClock clock;
   std::vector<std::shared_ptr<Engine>> engines;
   const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
@@ -138,15 +157,14 @@ std::string measure_all(const std::vector<std::string>& prompts, std::vector<Mea
       return loaded.error().message;
     }
     engines.push_back(loaded.value());
-    if (const auto system = engines.back()->set_system(prompts.front(), clock);
+    if (const auto system = engines.back()->set_system(prompts.system, clock);
         !system.has_value()) {
       return system.error().message;
     }
   }
-  const std::vector<std::string> scenes(prompts.begin() + 1, prompts.end());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (std::string error = measure(*engines[i], scenes, all[i]); !error.empty()) {
+      if (std::string error = measure(*engines[i], prompts, all[i]); !error.empty()) {
         return error;
       }
     }
@@ -184,10 +202,11 @@ double largest_shift(const Measurement& a, const Measurement& b) {
 
 int choose(const std::string& prompt_file, const std::string& out,
            const std::vector<std::string>& files) {
-  const std::vector<std::string> prompts = parts(prompt_file);
-  if (prompts.size() < 2 || prompts.size() > 1 + saca::model_host::max_scenes) {
-    return fail(prompt_file + ": want a system part and 1 to 3 scenes");
+  const std::optional<Prompts> read = read_prompts(prompt_file);
+  if (!read || read->scenes.empty() || read->scenes.size() > saca::model_host::max_scenes) {
+    return fail(prompt_file + ": want a system part and 1 to 3 scenes, each with its grammar");
   }
+  const Prompts& prompts = *read;
   std::vector<Measurement> all;
   for (const std::string& file : files) {
     all.push_back({.path = file});

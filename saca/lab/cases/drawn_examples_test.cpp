@@ -28,7 +28,7 @@ TEST(DrawnExamplesTest, KnowOfTheEncounterWhatHappenedAndOfItsTwinNothing) {
   EXPECT_EQ(first.known.at(index(PolicyId::aeb)), 0.2);
   EXPECT_FALSE(first.known.at(index(PolicyId::no_intervention)).has_value());
   EXPECT_FALSE(first.by_table.has_value());
-  EXPECT_THAT(first.prompt, HasSubstr("## Manoeuvres"));
+  EXPECT_THAT(first.prompt, HasSubstr("Least harm:"));
   for (std::size_t i = 1; i < drawn.examples.size(); ++i) {
     EXPECT_TRUE(drawn.examples[i].example.is_twin);
     EXPECT_EQ(drawn.examples[i].example.known, memory::PolicyHarms{});

@@ -17,7 +17,7 @@ using manoeuvre::PolicyId;
 /// Sure of braking at once, of a lane change to the left after reasoning; without our facts sure of
 /// doing nothing.
 language_model::ScriptedReply wavering(const std::string& prompt) {
-  const bool facts = prompt.find("## Manoeuvres:") != std::string::npos;
+  const bool facts = prompt.find("Least harm:") != std::string::npos;
   const PolicyId last = facts ? PolicyId::aes_left : PolicyId::no_intervention;
   return {
       .lines = {

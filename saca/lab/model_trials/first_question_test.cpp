@@ -33,7 +33,7 @@ TEST_F(FirstQuestion, IsWhatTheFirstPreviewsAsk) {
   ASSERT_FALSE(previews.value().empty());
   EXPECT_LE(previews.value().size(), language_model::most_scenes);
   for (const arbitration::Preview& preview : previews.value()) {
-    EXPECT_THAT(preview.prompt, HasSubstr("## Manoeuvres:"));
+    EXPECT_THAT(preview.prompt, HasSubstr("Least harm:"));
     EXPECT_TRUE(preview.reply.answers.empty());
   }
   EXPECT_EQ(other_.num_asked(), 0);

@@ -188,7 +188,7 @@ TEST_F(Thinking, WithoutFactsTheManoeuvresAreNotInThePrompt) {
     language_model::ScriptedModel model(says(PolicyId::aes_left), clock_);
     ThinkingPlane thinking = plane(&model, nullptr, {.facts = facts});
     think(thinking, wreck_ahead());
-    EXPECT_EQ(thinking.previews()[0].prompt.find("## Manoeuvres") != std::string::npos, facts);
+    EXPECT_EQ(thinking.previews()[0].prompt.find("Least harm:") != std::string::npos, facts);
     EXPECT_EQ(model.last_scenes(), std::vector{thinking.previews()[0].prompt});
   }
 }

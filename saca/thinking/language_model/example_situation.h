@@ -6,7 +6,7 @@ namespace saca::language_model {
 
 /// Reasons for AEB in the situation below: both statements hold.
 constexpr const char* example_reasons =
-    "1. NI hits truck1, harm 0.0125.\n2. So AEB: it is clear by 0.6 m.\n";
+    "1. NI hits truck1, harm 0.013.\n2. So AEB: it is clear by 0.6 m.\n";
 
 /// The paper's intersection at the trigger (Fig. 8) as a hand-filled forecast, for tests and
 /// benchmarks: poses from the figure; the facts are plausible, not computed.
@@ -54,13 +54,14 @@ inline preview::Situation example_situation() {
     collision::Contact contact;
     contact.actor = 0;
     contact.relative_speed = 8.0 + static_cast<double>(manoeuvre::index(policy));
-    facts.outcome().contact = contact;
-    facts.outcome().clearance = 0.0;
-    facts.outcome().harm = 0.0125;
+    auto& end = facts.end.emplace<preview::ExpectedOutcome>();
+    end.outcome.contact = contact;
+    end.outcome.clearance = 0.0;
+    end.outcome.harm = 0.0125;
+    end.contact_probability = 1.0;
   }
   preview::PolicyFacts& aeb = situation.facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
-  aeb.outcome() = {};
-  aeb.outcome().clearance = 0.62;
+  aeb.end.emplace<preview::ExpectedOutcome>().outcome.clearance = 0.62;
   situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_left)].end =
       preview::Refusal{"the road is too slippery"};
   situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_right)].end =

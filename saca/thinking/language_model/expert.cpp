@@ -25,8 +25,8 @@ enum class Piece : std::uint8_t {
   how_sure,     ///< ", maintain 0.94"
   unprotected,  ///< ", unprotected"
   ends,         ///< "AEB hits car2": how somebody else fares than who threatens
-  harm,         ///< ", harm 0.5943"
-  margin,       ///< ", harm 0.0724", of the next best
+  harm,         ///< ", harm 0.59"
+  margin,       ///< ", harm 0.072", of the next best
   reason,       ///< a statement
   address       ///< "The danger is "
 };
@@ -34,7 +34,7 @@ constexpr std::size_t num_pieces = 9;
 
 /// What a reply is put together from. Empty: does not apply.
 struct Arguments {
-  std::string who;         ///< "truck1, 16.0 m ahead"
+  std::string who;         ///< "truck1, 16 m ahead"
   std::string end;         ///< ": NI hits it"
   std::string conclusion;  ///< a statement
   std::array<std::string, num_pieces> pieces;

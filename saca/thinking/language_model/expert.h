@@ -32,8 +32,8 @@ namespace saca::language_model {
                                        manoeuvre::PolicyId choice, int most_tokens,
                                        std::mt19937_64& random);
 
-/// As many tokens (tokens_at_most) as a reply may have that models are taught to give: some 60 of
-/// SmolLM2's, of which three replies take 3.6 s where 50 a second are written together.
-constexpr int most_taught_tokens = 65;
+/// As many tokens (tokens_at_most) as a reply may have that models are taught to give: some 47 of
+/// SmolLM2's; what is always said may take more.
+constexpr int most_taught_tokens = 55;
 
 }  // namespace saca::language_model

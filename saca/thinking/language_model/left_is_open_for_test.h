@@ -17,9 +17,8 @@ inline preview::Situation left_is_open() {
     end.outcome.clearance = 1.5;
     end.contact_probability = 0.02;
   }
+  of(situation, PolicyId::aeb).end = of(situation, PolicyId::aes_right).end;
   of(situation, PolicyId::aeb).outcome().harm = 0.1;
-  of(situation, PolicyId::aeb).outcome().contact =
-      of(situation, PolicyId::aes_right).outcome().contact;
   return situation;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,12 +31,15 @@ using world::ActorKind;
 using world::Scene;
 
 constexpr std::string_view ego_name = "ego";
-constexpr std::string_view manoeuvres = "## Manoeuvres:\n";
-constexpr std::string_view historical = "## Historical Scenarios:\n";
+constexpr std::string_view least_harm_head = "Least harm:\n";
+constexpr std::string_view more_harm_head = "More harm:\n";
 constexpr std::string_view risk_label = ", risk ";
 constexpr double conflict_horizon = 10.0;  // [s], as the risk's
 constexpr double trigger_tolerance = 0.5;  // [s], as the trigger's
 constexpr double standing = 0.05;          // [m/s]: below it rounds to 0.0
+// What is not needed is told while a prompt has at most so many (tokens_at_most): three prompts are
+// read within some three seconds by a single core at 285 tokens/s.
+constexpr int enough_tokens = 305;
 
 constexpr std::array<std::string_view, manoeuvre::num_policies> policy_words{
     "braking, lane kept",
@@ -66,9 +70,26 @@ double without_negative_zero(double x, double resolution) {
   return std::abs(x) < resolution / 2.0 ? 0.0 : x;
 }
 
+// Metres or metres per second, at least 0. Each digit is a token to be read: from ten on none
+// stands behind the point.
+std::string measured(double x) {
+  constexpr double least_rounded_to_ten = 9.95;
+  return x < least_rounded_to_ten ? fmt::format("{:.1f}", x) : fmt::format("{:.0f}", x);
+}
+
+// Two digits that count, and at most three behind the point.
+std::string harm_digits(double harm) {
+  constexpr double least_rounded_to_a_tenth = 0.0995;
+  constexpr double least_rounded_to_one = 0.995;
+  return harm < least_rounded_to_a_tenth ? fmt::format("{:.3f}", harm)
+         : harm < least_rounded_to_one   ? fmt::format("{:.2f}", harm)
+                                         : fmt::format("{:.1f}", harm);
+}
+
 std::string placed(Vec2 p_B) {
-  return fmt::format("{:.1f} m {}, {:.1f} m {}", std::abs(p_B.x), p_B.x < 0.0 ? "behind" : "ahead",
-                     std::abs(p_B.y), p_B.y < 0.0 ? "right" : "left");
+  return fmt::format("{} m {}, {} m {}", measured(std::abs(p_B.x)),
+                     p_B.x < 0.0 ? "behind" : "ahead", measured(std::abs(p_B.y)),
+                     p_B.y < 0.0 ? "right" : "left");
 }
 
 std::string moving(Vec2 v_B) {
@@ -79,23 +100,24 @@ std::string moving(Vec2 v_B) {
   const bool along = std::abs(v_B.x) >= std::abs(v_B.y);
   const std::string_view direction =
       along ? (v_B.x > 0.0 ? "forwards" : "backwards") : (v_B.y > 0.0 ? "left" : "right");
-  return fmt::format("moving {} at {:.1f} m/s", direction, speed);
+  return fmt::format("moving {} at {} m/s", direction, measured(speed));
 }
 
-std::string ego_section(const Scene& scene) {
+std::string ego_line(const Scene& scene) {
   const Vec2 v_B = scene.ego.v_B;
   const std::string sliding = std::abs(v_B.y) < standing
                                   ? ""
-                                  : fmt::format(", sliding {:.1f} m/s to the {}", std::abs(v_B.y),
+                                  : fmt::format(", sliding {} m/s {}", measured(std::abs(v_B.y)),
                                                 v_B.y < 0.0 ? "right" : "left");
-  return fmt::format("## Ego Vehicle:\n{}, velocity {:.1f} m/s{}, road {}, grip {:.2f}\n", ego_name,
-                     without_negative_zero(v_B.x, 0.1), sliding, name(scene.road.topology),
-                     scene.grip);
+  const std::string_view sign = without_negative_zero(v_B.x, 0.1) < 0.0 ? "-" : "";
+  return fmt::format("{}: {}{} m/s{}, {}, grip {:.2f}\n", ego_name, sign, measured(std::abs(v_B.x)),
+                     sliding, name(scene.road.topology), scene.grip);
 }
 
 std::string obstacle_line(const Actor& actor, Vec2 p_B, double risk) {
-  return fmt::format("{}: {:.1f} m long, {:.1f} m wide, {}{}{:.2f}\n", actor_name(actor),
-                     actor.footprint.length, actor.footprint.width, placed(p_B), risk_label, risk);
+  return fmt::format("{}: {} m long, {} m wide, {}{}{:.2f}\n", actor_name(actor),
+                     measured(actor.footprint.length), measured(actor.footprint.width), placed(p_B),
+                     risk_label, risk);
 }
 
 std::string participant_line(const preview::Situation& situation, std::size_t i, Vec2 p_B) {
@@ -106,26 +128,33 @@ std::string participant_line(const preview::Situation& situation, std::size_t i,
                                                 trigger_tolerance);
   // Over ground, seen along the ego's axes.
   const Vec2 v_B = rotated(actor.v_W, -scene.ego.X_WB.yaw);
-  return fmt::format(
-      "{}: {}, {}{}, {} {:.2f}, TTC {}{}{:.2f}\n", actor_name(actor), placed(p_B), moving(v_B),
-      actor.occluded ? ", not seen now" : "", name_of(situation.intentions[i], intention_words),
-      situation.posteriors[i].at(intention), conflict ? fmt::format("{:.1f} s", *conflict) : "none",
-      risk_label, situation.risks[i].risk);
+  return fmt::format("{}: {}, {}{}, {} {:.2f}{}{}{:.2f}\n", actor_name(actor), placed(p_B),
+                     moving(v_B), actor.occluded ? ", not seen now" : "",
+                     name_of(situation.intentions[i], intention_words),
+                     situation.posteriors[i].at(intention),
+                     conflict ? fmt::format(", TTC {:.1f} s", *conflict) : "", risk_label,
+                     situation.risks[i].risk);
 }
 
-// The most dangerous first, then the nearest; the order of the scene decides the rest.
+bool is_hit_by_nothing(const preview::Situation& situation, std::size_t actor) {
+  const preview::PolicyFacts& nothing =
+      situation.facts[manoeuvre::index(PolicyId::no_intervention)];
+  return nothing.drivable() && nothing.outcome().contact &&
+         nothing.outcome().contact->actor == actor;
+}
+
+// Who is hit if nothing is done comes first, then the most dangerous, then the nearest; the order
+// of the scene decides the rest.
 std::vector<std::size_t> by_danger(const preview::Situation& situation) {
   const Scene& scene = situation.scene_at_trigger;
   std::vector<std::size_t> order(scene.actors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto distance = [&](std::size_t i) {
-    return norm(scene.actors[i].X_WA.p - scene.ego.X_WB.p);
+  const auto rank = [&](std::size_t i) {
+    return std::tuple(!is_hit_by_nothing(situation, i), -situation.risks[i].risk,
+                      norm(scene.actors[i].X_WA.p - scene.ego.X_WB.p));
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const double risk_a = situation.risks[a].risk;
-    const double risk_b = situation.risks[b].risk;
-    return risk_a != risk_b ? risk_a > risk_b : distance(a) < distance(b);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   return order;
 }
 
@@ -181,6 +210,15 @@ struct Depth {
   std::array<bool, manoeuvre::num_policies> in_whole{};  ///< or without how it comes to the harm
 };
 
+Depth with(Depth told, const Detail& detail) {
+  if (detail.of_actor) {
+    told.actor[detail.index] = true;
+  } else {
+    told.in_whole.at(detail.index) = true;
+  }
+  return told;
+}
+
 std::string actor_line(const preview::Situation& situation, std::size_t i) {
   const Scene& scene = situation.scene_at_trigger;
   const Actor& actor = scene.actors[i];
@@ -190,15 +228,16 @@ std::string actor_line(const preview::Situation& situation, std::size_t i) {
 }
 
 std::string edge_text(double way, world::Beyond beyond, bool is_oncoming) {
-  return fmt::format("{:.1f} m, {}{}", std::max(way, 0.0), beyond_text(beyond),
-                     is_oncoming ? ", oncoming lane" : "");
+  const std::string there =
+      beyond == world::Beyond::unmarked ? "" : fmt::format(", {}", beyond_text(beyond));
+  return fmt::format("{} m{}{}", edge_distance(way), there, is_oncoming ? ", oncoming lane" : "");
 }
 
-std::string road_section(const Scene& scene) {
+std::string road_lines(const Scene& scene) {
   const world::Road& road = scene.road;
   const double d = to_lane(road, scene.ego.X_WB).d;
   std::string text =
-      fmt::format("## Road:\nleft edge {}; right edge {}\n",
+      fmt::format("left edge {}; right edge {}\n",
                   edge_text(road.left_edge - d, road.left_beyond, road.oncoming_left),
                   edge_text(d - road.right_edge, road.right_beyond, road.oncoming_right));
   for (const world::Cue& cue : scene.cues) {
@@ -207,118 +246,126 @@ std::string road_section(const Scene& scene) {
   return text;
 }
 
-// Where it is not sure whether there is contact, how likely it is.
 std::string chance_text(const preview::PolicyFacts& facts) {
-  constexpr double sure = 0.005;
-  return facts.contact_probability() < sure || facts.contact_probability() > 1.0 - sure
-             ? ""
-             : fmt::format(", contact {:.0f} % likely", 100.0 * facts.contact_probability());
+  return fmt::format(", contact {:.0f} % likely", 100.0 * facts.contact_probability());
 }
 
-std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool in_whole) {
-  std::string line = manoeuvre::plan_text(facts.plan);
-  if (!facts.drivable()) {
-    return line + ": not possible: " + facts.refusal();
-  }
-  const auto& contact = facts.outcome().contact;
-  line += ": ";
-  if (!contact) {  // how far, and not of whom: each word of a prompt takes time
-    line += fmt::format("clear by {:.1f} m", facts.outcome().clearance) + chance_text(facts);
-  } else if (in_whole) {
-    line += rollout::describe(facts.outcome(), scene) + chance_text(facts);
-  } else {
-    line +=
-        contact->actor ? "hits " + actor_name(scene.actors[*contact->actor]) : "leaves the road";
-  }
-  return line + ", " + harm_text(facts.outcome().harm);
+std::string called(const collision::Contact& contact, const Scene& scene) {
+  return contact.actor ? actor_name(scene.actors[*contact.actor]) : "the road";
 }
 
-// So that nobody who reads has to compare numbers; empty: nothing can be driven.
-std::string least_harm_line(const preview::Situation& situation) {
-  const memory::Policies may = admissible(situation.facts);
-  std::string text;
-  for (const std::size_t k : by_forecast(situation)) {
-    const bool is_next = !may.test(k);
-    text += fmt::format("{}{} {}",
-                        text.empty() ? "Least harm: "
-                        : is_next    ? "; next "
-                                     : ", ",
-                        k, name(situation.facts[k].plan.policy));
-    if (is_next) {
-      break;
+// Whom a policy meets; in whole also how fast and who is met after him.
+std::string contact_text(const collision::Outcome& outcome, const Scene& scene, bool in_whole) {
+  const collision::Contact& contact = *outcome.contact;
+  std::string text = (contact.actor ? "hits " : "leaves ") + called(contact, scene);
+  if (in_whole) {
+    text += fmt::format(" at {} m/s", measured(contact.relative_speed));
+    for (const collision::Contact& later : outcome.later) {
+      text += ", then " + called(later, scene);
     }
   }
-  return text.empty() ? text : text + '\n';
+  return text;
+}
+
+// Whether a line tells how likely contact is: where that is not as good as certain, or where who
+// stays clear does harm all the same. Of an edge it tells nothing.
+bool has_chance(const preview::PolicyFacts& facts, bool in_whole) {
+  constexpr double sure = 0.05;
+  constexpr double much = 0.05;  // [harm]
+  const collision::Outcome& outcome = facts.outcome();
+  if (!outcome.contact) {  // in short as well: luck is not the same as certainty
+    return facts.contact_probability() >= sure || outcome.harm >= much;
+  }
+  return in_whole && outcome.contact->actor && facts.contact_probability() <= 1.0 - sure;
+}
+
+// A policy's forecast. To what speed it brakes is not told: each word of a prompt takes time.
+std::string forecast_line(const preview::PolicyFacts& facts, const Scene& scene, bool in_whole) {
+  const collision::Outcome& outcome = facts.outcome();
+  std::string how;
+  if (outcome.contact) {
+    how = contact_text(outcome, scene, in_whole);
+  } else {
+    how = in_whole ? fmt::format("clear by {} m", measured(outcome.clearance)) : "clear";
+  }
+  return policy_label(facts.plan) + ": " + how +
+         (has_chance(facts, in_whole) ? chance_text(facts) : "") + ", " + told_harm(outcome.harm) +
+         '\n';
 }
 
 /// Every line that may stand in a prompt.
 struct Lines {
   std::vector<std::string> actor;
-  std::array<std::string, manoeuvre::num_policies> in_whole;
+  std::array<std::string, manoeuvre::num_policies> in_whole;  ///< empty: cannot be driven
   std::array<std::string, manoeuvre::num_policies> in_short;
-  std::string least_harm;  ///< empty: nothing can be driven
 };
 
 Lines lines_of(const preview::Situation& situation) {
+  const Scene& scene = situation.scene_at_trigger;
   Lines lines;
-  lines.actor.resize(situation.scene_at_trigger.actors.size());
+  lines.actor.resize(scene.actors.size());
   for (std::size_t i = 0; i < lines.actor.size(); ++i) {
     lines.actor[i] = actor_line(situation, i);
   }
   for (std::size_t k = 0; k < situation.facts.size(); ++k) {
-    lines.in_whole.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, true) + '\n';
-    lines.in_short.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, false) + '\n';
+    const preview::PolicyFacts& facts = situation.facts[k];
+    if (facts.drivable()) {
+      lines.in_whole.at(k) = forecast_line(facts, scene, true);
+      lines.in_short.at(k) = forecast_line(facts, scene, false);
+    }
   }
-  lines.least_harm = least_harm_line(situation);
   return lines;
 }
 
-std::string actor_sections(const Scene& scene, const Lines& lines, const Depth& depth) {
-  std::string obstacles;
-  std::string participants;
+std::string actor_lines(const preview::Situation& situation, const Lines& lines,
+                        const Depth& depth) {
+  if (lines.actor.empty()) {
+    return "nobody else\n";
+  }
+  std::string text;
   std::size_t others = 0;
+  double least_told = 1.0;  // risk
+  double most_untold = 0.0;
   for (std::size_t i = 0; i < depth.actor.size(); ++i) {
-    const bool is_obstacle = scene.actors[i].kind == ActorKind::obstacle;
+    const double risk = situation.risks[i].risk;
     if (depth.actor[i]) {
-      (is_obstacle ? obstacles : participants) += lines.actor[i];
+      text += lines.actor[i];
+      least_told = std::min(least_told, risk);
     } else {
       ++others;
+      most_untold = std::max(most_untold, risk);
     }
   }
-  if (others > 0) {
-    participants += fmt::format("{} more of lower risk\n", others);
+  if (others > 0) {  // who is hit if nothing is done is told whatever his risk
+    text += fmt::format("{} more{}\n", others, most_untold <= least_told ? " of lower risk" : "");
   }
-  return "## Obstacles:\n" + (obstacles.empty() ? "none\n" : obstacles) +
-         "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
+  return text;
 }
 
-std::string manoeuvre_section(const preview::Situation& situation, const Lines& lines,
-                              const Depth& depth) {
-  std::string text(manoeuvres);
-  std::string refused;
-  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
-    const preview::PolicyFacts& facts = situation.facts[k];
-    if (facts.drivable()) {
-      text += (depth.in_whole.at(k) ? lines.in_whole : lines.in_short).at(k);
-    } else {
-      refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
-    }
+// The best forecast first, so that nobody who reads has to compare numbers.
+std::string manoeuvre_lines(const preview::Situation& situation, const Lines& lines,
+                            const Depth& depth) {
+  const memory::Policies may = admissible(situation.facts);
+  std::string least(least_harm_head);
+  std::string more(more_harm_head);
+  for (const std::size_t k : by_forecast(situation)) {
+    (may.test(k) ? least : more) += (depth.in_whole.at(k) ? lines.in_whole : lines.in_short).at(k);
   }
-  return text + (refused.empty() ? "" : "Not possible: " + refused + '\n') + lines.least_harm;
+  return (least == least_harm_head ? "" : least) + (more == more_harm_head ? "" : more);
 }
 
 // The case's own texts are not told: they come from a file. What it teaches stands in its numbers:
 // how often it was met, and what was expected where it went otherwise.
-std::string history_section(const std::optional<memory::Case>& nearest, double similarity,
-                            bool with_lesson) {
+std::string history_line(const std::optional<memory::Case>& nearest, double similarity,
+                         bool with_lesson) {
   if (!nearest) {
-    return std::string(historical) + "none\n";
+    return "no case is alike\n";
   }
   const auto policy_harm = [](PolicyId policy, double harm) {
-    return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
+    return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), told_harm(harm));
   };
   if (memory::is_hearsay(*nearest)) {
-    return fmt::format("{}A case {:.0f} % alike: somebody says that {} {} is best\n", historical,
+    return fmt::format("A case {:.0f} % alike: somebody says that {} {} is best\n",
                        100.0 * similarity, manoeuvre::index(nearest->best), name(nearest->best));
   }
   const PolicyId done = nearest->plan.policy;
@@ -330,12 +377,14 @@ std::string history_section(const std::optional<memory::Case>& nearest, double s
   if (with_lesson && nearest->told && nearest->told->at(manoeuvre::index(done))) {
     const double harm = *nearest->told->at(manoeuvre::index(done));
     if (std::abs(harm - nearest->harm) > memory::as_good) {
-      expected = fmt::format(" ({:.4f} expected)", harm);
+      expected = fmt::format(" ({} expected)", harm_digits(harm));
     }
   }
-  return fmt::format("{}A case {:.0f} % alike{}: carried out {}{}; best in hindsight {}\n",
-                     historical, 100.0 * similarity, often, policy_harm(done, nearest->harm),
-                     expected, policy_harm(nearest->best, nearest->best_harm));
+  const std::string what_was_done = policy_harm(done, nearest->harm) + expected;
+  return fmt::format(
+      "A case {:.0f} % alike{}:{} best in hindsight {}\n", 100.0 * similarity, often,
+      done == nearest->best ? "" : " carried out " + what_was_done + ";",
+      done == nearest->best ? what_was_done : policy_harm(nearest->best, nearest->best_harm));
 }
 
 std::string from_mildest() {
@@ -352,9 +401,8 @@ std::string from_mildest() {
 std::string rendered(const preview::Situation& situation, const Lines& lines, const Depth& depth,
                      const std::string& history) {
   const Scene& scene = situation.scene_at_trigger;
-  return "# Collision avoidance scenario\n" + ego_section(scene) +
-         actor_sections(scene, lines, depth) + road_section(scene) +
-         manoeuvre_section(situation, lines, depth) + history;
+  return ego_line(scene) + actor_lines(situation, lines, depth) + road_lines(scene) +
+         manoeuvre_lines(situation, lines, depth) + history;
 }
 
 }  // namespace
@@ -386,13 +434,12 @@ std::string system_part(const collision::HarmModel& harm) {
   }
   text += fmt::format(
       "Harm counts the people expected to be severely injured ({:g} each) or killed ({:g} each), "
-      "in and outside vehicles alike. It is a forecast: under \"Least harm\" stand, best first, "
-      "the "
-      "policies within {:.3f} of the least, or {:.0f} % of what AEB has above it, which cannot be "
-      "told apart, then the next. Choose the surest of those that cannot be told apart: whom it "
-      "may "
-      "hit and how likely, what lies beyond the edge, how the most alike case ended. Else the "
-      "mildest; from the mildest: {}. Do nothing where that is among them: it is looked at again.\n"
+      "in and outside vehicles alike. It is a forecast, the best first: under \"Least harm\" stand "
+      "the policies within {:.3f} of the least, or {:.0f} % of what AEB has above it, which cannot "
+      "be told apart. What is not listed cannot be driven. Choose the surest of those that cannot "
+      "be told apart: whom it may hit and how likely, what lies beyond the edge, how the most "
+      "alike case ended. Else the mildest; from the mildest: {}. Do nothing where that is among "
+      "them: it is looked at again.\n"
       "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
       "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
       "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "
@@ -409,38 +456,43 @@ std::string scene_part(const preview::Situation& situation,
               situation.risks.size() == num_actors && situation.tracks.size() == num_actors,
           "one intention, posterior, risk and track per actor");
   expects(!nearest || (similarity >= 0.0 && similarity <= 1.0), "similarity in [0, 1]");
+  const std::string history = history_line(nearest, similarity, false);
   const Lines lines = lines_of(situation);
-  const std::string history = history_section(nearest, similarity, false);
+  const auto fits = [&](const std::string& text) { return tokens_at_most(text) <= enough_tokens; };
   Depth told{.actor = std::vector<bool>(num_actors), .in_whole = {}};
+  bool is_first = true;          // who is most dangerous is told in any case
   bool actors_left_out = false;  // nobody is told who is less dangerous than somebody untold
   for (const Detail& detail : by_weight(situation)) {
     if (detail.of_actor && actors_left_out) {
       continue;
     }
-    Depth more = told;
-    if (detail.of_actor) {
-      more.actor[detail.index] = true;
-    } else {
-      more.in_whole.at(detail.index) = true;
-    }
-    if (tokens_at_most(rendered(situation, lines, more, history)) <= most_prompt_tokens) {
+    Depth more = with(told, detail);
+    if ((is_first && detail.of_actor) || fits(rendered(situation, lines, more, history))) {
       told = std::move(more);
     } else if (detail.of_actor) {
       actors_left_out = true;
     }
+    is_first = false;
   }
   const std::string with_lesson =
-      rendered(situation, lines, told, history_section(nearest, similarity, true));
-  return tokens_at_most(with_lesson) <= most_prompt_tokens
-             ? with_lesson
-             : rendered(situation, lines, told, history);
+      rendered(situation, lines, told, history_line(nearest, similarity, true));
+  return fits(with_lesson) ? with_lesson : rendered(situation, lines, told, history);
 }
 
 std::string without_facts(const std::string& scene_part) {
-  const std::size_t begin = scene_part.find(manoeuvres);
-  const std::size_t end = scene_part.find(historical);
-  expects(begin < end && end != std::string::npos, "a scene part");
-  return scene_part.substr(0, begin) + scene_part.substr(end);
+  std::string rest;
+  for (std::size_t begin = 0; begin < scene_part.size();) {
+    const std::size_t end = std::min(scene_part.find('\n', begin), scene_part.size() - 1) + 1;
+    const std::string_view line = std::string_view(scene_part).substr(begin, end - begin);
+    const bool of_a_policy =
+        std::any_of(manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(),
+                    [&](PolicyId policy) { return is_line_of(line, policy); });
+    if (!of_a_policy && line != least_harm_head && line != more_harm_head) {
+      rest += line;
+    }
+    begin = end;
+  }
+  return rest;
 }
 
 std::string without_risks(const std::string& scene_part) {
@@ -466,14 +518,36 @@ std::string cue_place(const world::Cue& cue, const Scene& scene) {
   return placed(inverse(scene.ego.X_WB) * cue.p_W);
 }
 
-std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {
-  return line_of(facts, scene, true);
+std::string edge_distance(double way) {
+  return measured(std::max(way, 0.0));
 }
 
-// Zeros are digits, and each digit is a token to be read.
+std::string policy_label(const manoeuvre::Plan& plan) {
+  return manoeuvre::plan_text({.policy = plan.policy, .strength = plan.strength});
+}
+
+std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {
+  const std::string line = manoeuvre::plan_text(facts.plan);
+  if (!facts.drivable()) {
+    return line + ": not possible: " + facts.refusal();
+  }
+  constexpr double sure = 0.005;
+  const double chance = facts.contact_probability();
+  const collision::Outcome& outcome = facts.outcome();
+  return line + ": " +
+         (outcome.contact ? rollout::describe(outcome, scene)
+                          : fmt::format("clear by {:.1f} m", outcome.clearance)) +
+         (chance < sure || chance > 1.0 - sure ? "" : chance_text(facts)) + ", " +
+         harm_text(outcome.harm);
+}
+
 std::string harm_text(double harm) {
   constexpr double smallest = 0.5e-4;
   return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
+}
+
+std::string told_harm(double harm) {
+  return harm < told_as_none ? "no harm" : "harm " + harm_digits(harm);
 }
 
 std::string_view beyond_text(world::Beyond beyond) {

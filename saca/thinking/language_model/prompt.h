@@ -12,8 +12,8 @@
 
 namespace saca::language_model {
 
-/// Of a scene part, by `tokens_at_most`: what a small model reads within a second on two cores.
-constexpr int most_prompt_tokens = 485;
+/// Of a scene part, by `tokens_at_most`, however crowded the scene is: most have some 270.
+constexpr int most_prompt_tokens = 360;
 
 /// The policies whose forecast cannot be told from the best one: they can be driven, and their harm
 /// is at most forecast::admissible_harm, braking being as its facts have it. None where nothing can
@@ -28,17 +28,19 @@ constexpr int most_prompt_tokens = 485;
 /// data/harm.toml), and the form of the reply.
 [[nodiscard]] std::string system_part(const collision::HarmModel& harm);
 
-/// One forecast as the model reads it, in the sections of the paper's Fig. 8 and 10 and with what
-/// was computed about each manoeuvre; docs/formats.md gives every line. The model weighs these
-/// facts; it does not compute.
+/// One forecast as the model reads it: what stands in the sections of the paper's Fig. 8 and 10, in
+/// their order and without their headings, which take time to be read, and what was computed about
+/// each manoeuvre; docs/formats.md gives every line. The model weighs these facts; it does not
+/// compute.
 ///
 /// Every word is from a fixed list and every name ours ("car1"): nothing that came from outside
 /// stands in it as text. Positions are of centres, seen from the ego's centre of mass, ahead and
-/// left in words; numbers have fixed decimals.
+/// left in words; of metres and metres per second those below ten have one decimal, others none.
 ///
-/// However crowded the scene, the text has at most `most_prompt_tokens`. What does not fit is left
-/// out, the lightest first: what the case teaches, lines of road users of low risk, who are counted
-/// instead, and of policies that are forecast badly, how they come to their harm.
+/// What does not fit into some 300 tokens is left out, the lightest first: what the case teaches,
+/// lines of road users of low risk, who are counted instead, and of policies that are forecast
+/// badly, how they come to their harm. Who is hit if nothing is done, else the most dangerous road
+/// user, is told always.
 ///
 /// @param nearest     the stored case that is most alike, if there is one
 /// @param similarity  of that case, in [0, 1]
@@ -47,13 +49,26 @@ constexpr int most_prompt_tokens = 485;
                                      const std::optional<memory::Case>& nearest, double similarity);
 
 /// A scene part without what was computed about each manoeuvre, as the paper's prompts are: to find
-/// out what that is worth.
+/// out what that is worth. Where not everybody is told of, who is stays as it was.
 [[nodiscard]] std::string without_facts(const std::string& scene_part);
 /// Likewise without how dangerous each road user is; who comes first stays so.
 [[nodiscard]] std::string without_risks(const std::string& scene_part);
 
-/// What a policy is forecast to end in, in one line: "0 AEB: clear by 0.6 m, no harm". Used
-/// by prompt, terminal and report alike.
+/// What a policy's line of a scene part begins with: "3 ES-B-L", "0 AEB at 45 % of the grip".
+[[nodiscard]] std::string policy_label(const manoeuvre::Plan& plan);
+
+/// Told as no harm in a scene part: below this [harm].
+constexpr double told_as_none = 0.5e-3;
+/// As a scene part tells it, rounded to 0.001, from 0.1 on to 0.01, from 1 on to 0.1: "harm 0.013",
+/// "harm 1.2", or "no harm".
+[[nodiscard]] std::string told_harm(double harm);
+
+/// How far it is to an edge of the road, as a scene part tells it: "5.2".
+/// @param way  [m]; below 0: the ego is beyond it
+[[nodiscard]] std::string edge_distance(double way);
+
+/// What a policy is forecast to end in, in one line, for people and for reviews: "0 AEB: clear by
+/// 0.6 m, no harm".
 [[nodiscard]] std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene);
 
 /// "harm 0.0125", or "no harm" where that would be four zeros.
@@ -61,7 +76,7 @@ constexpr int most_prompt_tokens = 485;
 
 /// What a cue is called in a prompt: "row of parked vans".
 [[nodiscard]] std::string_view cue_text(world::CueKind kind);
-/// And where it is said to be: "12.0 m ahead, 3.5 m right".
+/// And where it is said to be: "12 m ahead, 3.5 m right".
 [[nodiscard]] std::string cue_place(const world::Cue& cue, const world::Scene& scene);
 
 /// What stands beyond an edge: "open ground", "kerb", "barrier" or "trees".

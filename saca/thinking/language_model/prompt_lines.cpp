@@ -22,23 +22,24 @@ ActorLine read_actor_line(std::string_view line) {
   std::vector<std::string> parts;
   while (!line.empty()) {
     const std::size_t end = std::min(line.find(", "), line.size());
-    parts.emplace_back(line.substr(0, end));
+    if (end > 0) {
+      parts.emplace_back(line.substr(0, end));
+    }
     line.remove_prefix(std::min(end + 2, line.size()));
   }
   ActorLine read;
-  std::string last;
   for (std::string& part : parts) {
     if (part.ends_with("m ahead") || part.ends_with("m behind")) {
-      read.along = part;
+      read.along = std::move(part);
     } else if (part.ends_with("m left") || part.ends_with("m right")) {
-      read.across = part;
+      read.across = std::move(part);
     } else if (part.starts_with("TTC ")) {
-      read.intention = last;
-      read.conflict = part == "TTC none" ? "" : part;
+      read.conflict = std::move(part);
     } else if (part.starts_with("risk ")) {
-      read.risk = part;
+      read.risk = std::move(part);
+    } else if (part.back() >= '0' && part.back() <= '9') {
+      read.intention = std::move(part);
     }
-    last = std::move(part);
   }
   return read;
 }

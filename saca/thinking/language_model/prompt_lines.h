@@ -12,7 +12,7 @@ namespace saca::language_model {
 /// What a prompt's line about a road user says, piece by piece, as it is written there. A piece is
 /// empty where the line has none.
 struct ActorLine {
-  std::string along;      ///< "16.0 m ahead"
+  std::string along;      ///< "16 m ahead"
   std::string across;     ///< "6.4 m left"
   std::string intention;  ///< "lane change right 0.88"
   std::string conflict;   ///< "TTC 0.9 s"

@@ -16,9 +16,10 @@ TEST(PromptLines, AreFoundByTheirBeginningAlone) {
 
 TEST(PromptLines, OfARoadUserAreReadPieceByPiece) {
   const ActorLine told = read_actor_line(
-      "16.0 m ahead, 6.4 m left, heading across, 7.5 m/s, lane change right 0.88, TTC 0.9 s, risk "
+      "16 m ahead, 6.4 m left, moving right at 7.5 m/s, not seen now, lane change right 0.88, "
+      "TTC 0.9 s, risk "
       "0.94");
-  EXPECT_EQ(told.along, "16.0 m ahead");
+  EXPECT_EQ(told.along, "16 m ahead");
   EXPECT_EQ(told.across, "6.4 m left");
   EXPECT_EQ(told.intention, "lane change right 0.88");
   EXPECT_EQ(told.conflict, "TTC 0.9 s");
@@ -26,13 +27,15 @@ TEST(PromptLines, OfARoadUserAreReadPieceByPiece) {
 }
 
 TEST(PromptLines, NobodyIsInTheWayOfWhomNoTimeIsTold) {
-  const ActorLine told = read_actor_line("2.0 m behind, 3.0 m right, maintain 0.90, TTC none");
+  const ActorLine told = read_actor_line("2.0 m behind, 3.0 m right, standing, maintain 0.90");
   EXPECT_EQ(told.along, "2.0 m behind");
   EXPECT_EQ(told.across, "3.0 m right");
   EXPECT_EQ(told.intention, "maintain 0.90");
   EXPECT_EQ(told.conflict, "");
   EXPECT_EQ(told.risk, "");
   EXPECT_EQ(read_actor_line("").along, "");
+  EXPECT_EQ(read_actor_line("8.0 m long, 2.5 m wide, 16 m ahead, 0.0 m left, risk 0.94").intention,
+            "");
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ TEST(ReplyGrammar, RefusesWhatIsFalse) {
   const Asked about = asked(0);
   const Gbnf grammar = about.grammar();
   const auto reply = [](const std::string& statement) {
-    return "Scenario Analysis\n1. truck1, 16.0 m ahead: NI hits it.\n2. " + statement +
+    return "Scenario Analysis\n1. truck1, 16 m ahead: NI hits it.\n2. " + statement +
            ".\nResponse to user:";
   };
   EXPECT_TRUE(grammar.accepts(reply("So ES-B-L: as good as AES-L, and milder")));
@@ -143,7 +143,7 @@ TEST(ReplyGrammar, RefusesWhatIsFalse) {
   EXPECT_FALSE(grammar.accepts(reply("So ES-B-L: least harm, next AES-L")));
   EXPECT_FALSE(grammar.accepts(reply("So AEB: as good as AES-L, and milder")));  // it hits
   EXPECT_FALSE(
-      grammar.accepts("Scenario Analysis\n1. truck1, 16.1 m ahead: NI hits it.\n"
+      grammar.accepts("Scenario Analysis\n1. truck1, 17 m ahead: NI hits it.\n"
                       "2. So ES-B-L: as good as AES-L, and milder.\nResponse to user:"));
 }
 

@@ -36,7 +36,7 @@ struct Review {
 };
 
 /// Asks what happened, which policy would have been best and by how much, and what to remember.
-/// All figures stand in it (computed, not to be computed). Words as in `scene_part`.
+/// All figures stand in it (computed, not to be computed), of harm with four decimals.
 [[nodiscard]] std::string review_prompt(const Aftermath& aftermath);
 
 /// The reviews that are true (GBNF, as AskOptions::grammars wants it): what it came to, what was

@@ -77,6 +77,17 @@ TEST(Review, IsJudgedByWhatIsKnown) {
   EXPECT_EQ(truth_of("AES-L is clear.", prompt, made.known, std::nullopt).score(), 0.0);
 }
 
+// A review tells harm more finely than a prompt does.
+TEST(Review, LittleHarmIsNotNone) {
+  Aftermath made = aftermath();
+  const auto says_none = [&](double harm) {
+    made.known.facts[0].outcome().harm = harm;
+    return truth_of("AEB does no harm.", review_prompt(made), made.known, std::nullopt).score();
+  };
+  EXPECT_EQ(says_none(0.0), 1.0);
+  EXPECT_EQ(says_none(0.0003), 0.0);
+}
+
 TEST(Review, IsShownWhereItIsTrue) {
   const Aftermath made = aftermath();
   Review review{.prompt = review_prompt(made)};

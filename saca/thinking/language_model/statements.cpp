@@ -102,12 +102,11 @@ std::string Statements::end_of(PolicyId policy) const {
   if (!facts(policy).drivable()) {
     return called(policy) + " is not possible";
   }
-  const std::string_view told =
-      rest_of_line(prompt_, manoeuvre::plan_text(facts(policy).plan) + ": ");
+  const std::string_view told = rest_of_line(prompt_, policy_label(facts(policy).plan) + ": ");
   if (told.empty()) {
     return "";
   }
-  const std::string how(told.substr(0, std::min(told.find(','), told.find(" with "))));
+  const std::string how(told.substr(0, std::min(told.find(','), told.find(" at "))));
   return called(policy) + (how.starts_with("clear") ? " is " : " ") + how;
 }
 
@@ -124,7 +123,7 @@ std::string Statements::end_beside(PolicyId policy, std::size_t actor) const {
 
 std::string Statements::with_harm(PolicyId policy) const {
   const PolicyFacts& its = facts(policy);
-  return its.drivable() && its.outcome().contact ? ", " + harm_text(its.outcome().harm) : "";
+  return its.drivable() && its.outcome().contact ? ", " + told_harm(its.outcome().harm) : "";
 }
 
 std::vector<std::string> Statements::warnings() const {
@@ -183,7 +182,7 @@ void Statements::add_side(int side, std::vector<Remark>& all) const {
   const world::Beyond beyond = side > 0 ? road.left_beyond : road.right_beyond;
   if (way < near_edge && beyond != world::Beyond::unmarked) {
     all.push_back(
-        {{fmt::format("Beyond the {} edge, {:.1f} m away, {} {}", word, std::max(way, 0.0),
+        {{fmt::format("Beyond the {} edge, {} m away, {} {}", word, edge_distance(way),
                       beyond == world::Beyond::trees ? "are" : "is a", beyond_text(beyond))}});
   }
 }
@@ -239,7 +238,7 @@ std::vector<std::string> Statements::advantages(PolicyId choice, PolicyId other)
   const PolicyFacts& mine = facts(choice);
   const PolicyFacts& theirs = facts(other);
   if (is_alone()) {
-    return {", " + harm_text(theirs.outcome().harm)};
+    return {", " + told_harm(theirs.outcome().harm)};
   }
   std::vector<std::string> all;
   const auto add_if = [&](bool so, std::string what) {

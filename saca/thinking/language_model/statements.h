@@ -18,7 +18,7 @@ constexpr int most_statements = 4;
 /// What a reply says of a road user, piece by piece, from the prompt's line about it. A piece is
 /// empty where that says nothing of it.
 struct RoadUserPieces {
-  std::string who;          ///< "truck1, 16.0 m ahead"
+  std::string who;          ///< "truck1, 16 m ahead"
   std::string beside;       ///< ", 6.4 m left"; empty where that says no more than that it is ahead
   std::string risk;         ///< ", risk 0.94"
   std::string intention;    ///< ", maintain 0.94"
@@ -65,11 +65,12 @@ class Statements {
   /// @param actor  one whom the prompt has a line about
   [[nodiscard]] RoadUserPieces pieces_of(std::size_t actor) const;
 
-  /// "AEB is clear by 0.6 m", "AEB hits car1": what the prompt has of it, in short; empty: nothing.
+  /// "AEB is clear by 0.6 m", "AEB hits car1": what the prompt has of it, in short, or "T-D-L is
+  /// not possible"; empty: it has nothing.
   [[nodiscard]] std::string end_of(manoeuvre::PolicyId policy) const;
   /// Likewise, behind what is said of a road user: "AEB hits it"; empty: it hits somebody else.
   [[nodiscard]] std::string end_beside(manoeuvre::PolicyId policy, std::size_t actor) const;
-  /// ", harm 0.0125" of what is not clear; empty: it is.
+  /// ", harm 0.013" of what is not clear; empty: it is.
   [[nodiscard]] std::string with_harm(manoeuvre::PolicyId policy) const;
 
   /// What the nearest cue that is ahead may mean, in several wordings; empty: there is none.
@@ -88,7 +89,7 @@ class Statements {
   ///                can be driven
   [[nodiscard]] std::string conclusion(manoeuvre::PolicyId choice,
                                        const std::optional<manoeuvre::PolicyId>& other) const;
-  /// What may follow it: ", harm 0.0724" of the next best where the choice alone is admissible;
+  /// What may follow it: ", harm 0.072" of the next best where the choice alone is admissible;
   /// else what speaks for the one of two, the weightiest first. Each may be left out.
   [[nodiscard]] std::vector<std::string> advantages(manoeuvre::PolicyId choice,
                                                     manoeuvre::PolicyId other) const;

@@ -23,7 +23,7 @@ TEST(Statements, QuoteThePromptAboutARoadUser) {
   const Statements statements(situation, prompt, no_case);
   ASSERT_EQ(statements.most_dangerous(), 0U);
   const RoadUserPieces truck = statements.pieces_of(0);
-  EXPECT_EQ(truck.who, "truck1, 16.0 m ahead");
+  EXPECT_EQ(truck.who, "truck1, 16 m ahead");
   EXPECT_EQ(truck.beside, ", 6.4 m left");
   EXPECT_EQ(truck.intention, ", maintain 0.88");
   EXPECT_EQ(truck.risk, ", risk 0.94");
@@ -32,7 +32,7 @@ TEST(Statements, QuoteThePromptAboutARoadUser) {
   EXPECT_EQ(statements.end_beside(PolicyId::aeb, 0), "AEB hits it");
   EXPECT_EQ(statements.end_beside(PolicyId::aeb, 1), "");  // it hits the truck
   EXPECT_EQ(statements.end_of(PolicyId::aeb), "AEB hits truck1");
-  EXPECT_EQ(statements.with_harm(PolicyId::aeb), ", harm 0.1000");
+  EXPECT_EQ(statements.with_harm(PolicyId::aeb), ", harm 0.10");
   EXPECT_EQ(statements.end_of(PolicyId::t_drift_left), "T-D-L is not possible");
   EXPECT_EQ(statements.end_beside(PolicyId::t_drift_left, 0), "");
 }
@@ -77,7 +77,7 @@ TEST(Statements, TellTheNextBestOfOneThatIsAlone) {
   EXPECT_EQ(statements.conclusion(PolicyId::es_b_left, PolicyId::no_intervention),
             "So ES-B-L: least harm, next NI");
   EXPECT_THAT(statements.advantages(PolicyId::es_b_left, PolicyId::no_intervention),
-              ElementsAre(", harm 0.0125"));
+              ElementsAre(", harm 0.013"));
 }
 
 // A remark that rules a side out says so: whoever goes there cannot make it.

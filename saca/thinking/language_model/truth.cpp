@@ -25,8 +25,6 @@ using manoeuvre::PolicyId;
 using preview::PolicyFacts;
 using preview::Situation;
 
-constexpr double told_as_none = 0.5e-4;  // told as "no harm"
-
 bool agree(const QuotedNumber& said, const QuotedNumber& known) {
   const bool same_unit = said.unit.empty() || known.unit.empty() || said.unit == known.unit;
   constexpr double rounding = 1e-9;
@@ -146,14 +144,22 @@ void judge_numbers(std::string_view sentence, std::string_view prompt, const Sub
   }
 }
 
-void judge_claim(Claim claim, const Subject& subject, const Situation& situation,
-                 Verdict& verdict) {
+/// Whether a prompt has a figure for a policy's harm: a review's has more decimals than others.
+bool has_harm_of(PolicyId policy, std::string_view prompt, const Situation& situation) {
+  Subject alone;
+  alone.policies.push_back(policy);
+  return lines_about(prompt, alone, situation).find(", harm ") != std::string::npos;
+}
+
+void judge_claim(Claim claim, std::string_view prompt, const Subject& subject,
+                 const Situation& situation, Verdict& verdict) {
   const auto& facts = situation.facts;
   if (!subject.policies.empty()) {
     verdict.says_something = true;
     for (const PolicyId policy : subject.policies) {
       const PolicyFacts& one = facts[manoeuvre::index(policy)];
-      if (!is_so_of(claim, one, situation, subject.actors)) {
+      if (!is_so_of(claim, one, situation, subject.actors) ||
+          (claim == Claim::no_harm && has_harm_of(policy, prompt, situation))) {
         verdict.wrong(told(one, situation));
       }
     }
@@ -193,7 +199,9 @@ AlikeCase alike_case(std::string_view prompt) {
     }
     return manoeuvre::policy_from(prompt[at + words.size()] - '0');
   };
-  return {policy_after(": carried out "), policy_after("; best in hindsight ")};
+  const auto done = policy_after(": carried out ");
+  const auto best = policy_after(" best in hindsight ");
+  return {done ? done : best, best};
 }
 
 void judge_alike_case(std::string_view low, std::string_view prompt, const Subject& subject,
@@ -299,7 +307,7 @@ Verdict judged(std::string_view sentence, std::string_view prompt, const Situati
   judge_numbers(sentence, prompt, subject, situation, verdict);
   const std::optional<Claim> claim = claim_of(low);
   if (claim) {
-    judge_claim(*claim, subject, situation, verdict);
+    judge_claim(*claim, prompt, subject, situation, verdict);
   }
   judge_alike_case(low, prompt, subject, verdict);
   judge_comparison(low, subject, situation, verdict);

@@ -15,7 +15,7 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-// truck1: 16.0 m ahead, 6.4 m left, moving right at 7.5 m/s; pedestrian1: 6.0 m ahead, 4.0 m left.
+// truck1: 16 m ahead, 6.4 m left, moving right at 7.5 m/s; pedestrian1: 6.0 m ahead, 4.0 m left.
 // AEB is clear by 0.6 m; both drifts are refused; all others hit truck1, policy k at 8 + k m/s.
 Truth judge(const std::string& reasoning, std::optional<PolicyId> choice = PolicyId::aeb) {
   const preview::Situation situation = example_situation();
@@ -54,7 +54,7 @@ TEST(Truth, OfATrueReplyStaysTrueHoweverItIsCut) {
       "Scenario Analysis\n"
       "1. The ego drives at 14.0 m/s; grip is 0.90.\n"
       "2. truck1 is 16.0 m ahead and moves right at 7.5 m/s. pedestrian1 stands 4.0 m left.\n"
-      "3. AES-R hits truck1 with its front at 10.0 m/s, harm 0.0125. AEB is clear by 0.6 m.\n";
+      "3. AES-R hits truck1 at 10.0 m/s, harm 0.013. AEB is clear by 0.6 m.\n";
   const preview::Situation situation = example_situation();
   const std::string prompt = scene_part(situation, std::nullopt, 0.0);
   Reply reply{.answers = {{.probability = {1.0}, .kind = Answer::Kind::forced}}};
