@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "free_cores.h"
 #include "saca/base/core/processor_time.h"
 #include "thread_choice.h"
 #include "token_choice.h"
@@ -144,6 +145,7 @@ struct Engine::State {
   RecentCost run_cost;     // of a token where the grammar forced several
   RecentCost answer_cost;  // of one scene
   ThreadChoice threads;
+  FreeCores free_cores;
   double least_token_cost = std::numeric_limits<double>::max();  // of a prompt [s]
 
   // Read by the abort callback inside a step.
@@ -411,6 +413,7 @@ struct Engine::State {
   // Evaluates a scene's prompt and reads its first answer. False when the deadline came first.
   bool begin_scene(SceneProgress& thought, const Tokens& prompt, Clock::Time deadline,
                    AskFigures& figures, const EngineEvents& events) {
+    look_for_others();
     const Clock::Time begin = clock->now();
     const double computed_before = processor_seconds();
     // Only its own answer is waited for: those before it have theirs.
@@ -432,6 +435,15 @@ struct Engine::State {
     thought.next = chosen(thought, last);
     thought.reasoning = true;
     return read_answers({&thought}, AnswerKind::first, deadline, events);
+  }
+
+  // Chooses the threads by what others left of the cores of late.
+  void look_for_others() {
+    if (threads.gives_way()) {
+      if (const std::optional<double> cores = free_cores.since_last()) {
+        threads.note_free(*cores);
+      }
+    }
   }
 
   // Of the time that the threads had, the share in which they computed.
@@ -637,6 +649,7 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.threads.take_all();
+  s.look_for_others();
   return s.think(std::move(tasks).value(), deadline, form.max_tokens, clock, events);
 }
 

@@ -11,8 +11,9 @@ namespace saca::model_host {
 
 /// How many threads to compute with. All are fastest where nobody else wants the cores; else they
 /// wait for each other hundreds of times in each step, and one alone is several times as fast.
-/// Which holds is seen from what prompts and steps take, and from how much of that time the threads
-/// were computing: a machine may be slow although nobody disturbs it.
+/// Which holds is told beforehand by how many cores are free (`FreeCores`), and seen at once from
+/// what prompts and steps take and how much of that time the threads were computing: a machine may
+/// be slow although nobody disturbs it.
 class ThreadChoice {
  public:
   /// @param all        > 0
@@ -28,6 +29,12 @@ class ThreadChoice {
     lost_ = 0.0;
   }
   void take_one() { alone_ = gives_way_; }
+
+  /// Others left so many cores of late: all threads where that is enough for them, else one.
+  void note_free(double cores) {
+    alone_ = gives_way_ && cores < static_cast<double>(all_) - half_a_core;
+    lost_ = 0.0;
+  }
 
   /// A prompt was read, at so much time for each of its tokens [s].
   /// @param computing  processor time over the time that all threads had, in [0, 1]: less than 1
@@ -67,6 +74,7 @@ class ThreadChoice {
   // beside one other process, in steps of three scenes in up to 0.71.
   static constexpr double undisturbed = 0.75;
   static constexpr double most_lost = 6.0;  // against one thread, in steps of that
+  static constexpr double half_a_core = 0.5;
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   int all_;

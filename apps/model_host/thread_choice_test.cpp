@@ -50,6 +50,20 @@ TEST(ThreadChoice, StepsThatAreSlowThoughNobodyDisturbsAreMadeByAll) {
   EXPECT_TRUE(choice.note_step(1, 0.060, 0.5)) << "from now on somebody does";
 }
 
+TEST(ThreadChoice, FreeCoresTellItBeforehand) {
+  ThreadChoice choice(2, true);
+  choice.note_free(1.1);
+  EXPECT_EQ(choice.threads(), 1);
+  choice.note_free(1.9);
+  EXPECT_EQ(choice.threads(), 2);
+  ThreadChoice stubborn(2, false);
+  stubborn.note_free(0.0);
+  EXPECT_EQ(stubborn.threads(), 2);
+  ThreadChoice only(1, true);
+  only.note_free(0.2);
+  EXPECT_EQ(only.threads(), 1);
+}
+
 TEST(ThreadChoice, PromptTellsIt) {
   ThreadChoice choice(2, true);
   choice.note_prompt(0.0011, disturbed);  // cold
