@@ -34,7 +34,9 @@ inline std::optional<double> idle_seconds(const std::string& stat,
     double idle = 0.0;
     double waiting = 0.0;
     words >> name >> user >> nice >> system >> idle >> waiting;
+    constexpr std::size_t longest_name = 10;
     const bool is_processor = name.starts_with("cpu") && name.size() > 3 &&
+                              name.size() <= longest_name &&
                               name.find_first_not_of("0123456789", 3) == std::string::npos;
     if (words && is_processor && is_ours(std::stoi(name.substr(3)))) {
       all = all.value_or(0.0) + (idle + waiting) / ticks_per_second;

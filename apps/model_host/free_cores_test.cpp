@@ -12,6 +12,7 @@ const std::string stat =
     "cpu10 100 0 20 200 10 0 0 0 0 0\n"
     "intr 5 6 7\n"
     "cpux 1 2 3 4 5\n"
+    "cpu99999999999999999999 1 2 3 4 5\n"
     "cpu2 broken\n";
 
 TEST(FreeCores, IdleTimeIsOfOurProcessorsAlone) {

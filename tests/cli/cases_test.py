@@ -213,7 +213,7 @@ def test_sets_hold_prompts_and_admissible_replies_of_one_record_each(built, tmp_
         assert header == {"schema": "saca.reply_examples/1", "examples": len(lines)}
         assert told[f"export.{name}.num_examples"] == len(lines)
         for one in lines:
-            assert one["set"] == name and one["prompt"].startswith("# Collision avoidance scenario\n")
+            assert one["set"] == name and one["prompt"].startswith("ego: ")
             assert one["choice"] in one["admissible"] and one["reply"].endswith(f"\nResponse to user: {one['choice']}")
             assert one["forecast"][one["choice"]] <= min(harm for harm in one["forecast"] if harm is not None) + 0.05
             assert one["twin"] == all(harm is None for harm in one["known"])

@@ -47,7 +47,7 @@ TEST(ChatSet, CountsWhatIsRead) {
 
 TEST(ChatSet, WhatIsExportedKeepsTheRules) {
   ReplyExample example;
-  example.prompt = "# Collision avoidance scenario\n";
+  example.prompt = "ego: 14 m/s\n";
   example.reply = "Scenario Analysis\n1. Grip is 0.90.\nResponse to user: 0";
   EXPECT_EQ(why(chat_json(example, "You choose.").dump() + "\n"), "");
 }

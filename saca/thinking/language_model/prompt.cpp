@@ -289,8 +289,7 @@ std::string forecast_line(const preview::PolicyFacts& facts, const Scene& scene,
     how = in_whole ? fmt::format("clear by {} m", measured(outcome.clearance)) : "clear";
   }
   return policy_label(facts.plan) + ": " + how +
-         (has_chance(facts, in_whole) ? chance_text(facts) : "") + ", " + told_harm(outcome.harm) +
-         '\n';
+         (has_chance(facts, in_whole) ? chance_text(facts) : "") + ", " + told_harm(outcome.harm);
 }
 
 /// Every line that may stand in a prompt.
@@ -310,8 +309,8 @@ Lines lines_of(const preview::Situation& situation) {
   for (std::size_t k = 0; k < situation.facts.size(); ++k) {
     const preview::PolicyFacts& facts = situation.facts[k];
     if (facts.drivable()) {
-      lines.in_whole.at(k) = forecast_line(facts, scene, true);
-      lines.in_short.at(k) = forecast_line(facts, scene, false);
+      lines.in_whole.at(k) = forecast_line(facts, scene, true) + '\n';
+      lines.in_short.at(k) = forecast_line(facts, scene, false) + '\n';
     }
   }
   return lines;
@@ -516,6 +515,10 @@ std::string_view cue_text(world::CueKind kind) {
 
 std::string cue_place(const world::Cue& cue, const Scene& scene) {
   return placed(inverse(scene.ego.X_WB) * cue.p_W);
+}
+
+std::string told_policy(const preview::PolicyFacts& facts, const world::Scene& scene) {
+  return forecast_line(facts, scene, true);
 }
 
 std::string edge_distance(double way) {

@@ -63,6 +63,10 @@ constexpr double told_as_none = 0.5e-3;
 /// "harm 1.2", or "no harm".
 [[nodiscard]] std::string told_harm(double harm);
 
+/// A policy's line of a scene part, told in whole: "1 AES-L: hits truck1 at 9.0 m/s, harm 0.013".
+/// @param facts  of one that can be driven
+[[nodiscard]] std::string told_policy(const preview::PolicyFacts& facts, const world::Scene& scene);
+
 /// How far it is to an edge of the road, as a scene part tells it: "5.2".
 /// @param way  [m]; below 0: the ego is beyond it
 [[nodiscard]] std::string edge_distance(double way);
