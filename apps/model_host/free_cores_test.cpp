@@ -5,7 +5,7 @@
 namespace saca::model_host::free_cores_test {
 namespace {
 
-const std::string stat =
+constexpr const char* stat =
     "cpu  300 0 60 900 40 1 2 3 0 0\n"
     "cpu0 100 0 20 400 10 1 2 3 0 0\n"
     "cpu1 100 0 20 300 20 0 0 0 0 0\n"

@@ -64,7 +64,7 @@ TEST(Expert, NamesTheRunnerUpsHarm) {
 TEST(Expert, SaysNothingFalse) {
   std::set<std::string> conclusions;
   for (unsigned seed = 0; seed < 400; ++seed) {
-    preview::Situation situation = seed % 4 == 0 ? left_is_open() : crowded_situation(seed);
+    const preview::Situation situation = seed % 4 == 0 ? left_is_open() : crowded_situation(seed);
     std::optional<memory::Case> nearest;
     if (seed % 3 == 0) {
       nearest.emplace();

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
@@ -18,8 +20,8 @@ namespace {
 constexpr std::string_view small =
     "root ::= \"So \" (turn | \"brake\" (\" hard\")?) \".\\nGo\"\n"
     "turn ::= (\"left\" | \"leap\" | \"\") \" on\"\n";
-const std::vector<std::string> all_of_small{"So left on.\nGo", "So leap on.\nGo", "So  on.\nGo",
-                                            "So brake.\nGo", "So brake hard.\nGo"};
+constexpr std::array<std::string_view, 5> all_of_small{
+    "So left on.\nGo", "So leap on.\nGo", "So  on.\nGo", "So brake.\nGo", "So brake hard.\nGo"};
 
 /// By the texts themselves: what all of those that begin so go on with, and their next bytes.
 struct Next {
@@ -28,9 +30,9 @@ struct Next {
 };
 Next next_of(const std::string& begin) {
   std::vector<std::string> rests;
-  for (const std::string& text : all_of_small) {
+  for (const std::string_view text : all_of_small) {
     if (text.starts_with(begin)) {
-      rests.push_back(text.substr(begin.size()));
+      rests.emplace_back(text.substr(begin.size()));
     }
   }
   Next next;
@@ -48,16 +50,16 @@ Next next_of(const std::string& begin) {
 }
 
 TEST(GrammarWalk, TellsWhatMustComeAndWhatMay) {
-  for (const std::string& text : all_of_small) {
+  for (const std::string_view text : all_of_small) {
     auto walk = GrammarWalk::make(small);
     ASSERT_TRUE(walk.has_value());
     for (std::size_t i = 0; i <= text.size(); ++i) {
-      const Next next = next_of(text.substr(0, i));
+      const Next next = next_of(std::string(text.substr(0, i)));
       const std::string possible = walk->possible();
       EXPECT_EQ(walk->forced(), next.forced) << "after " << text.substr(0, i);
       EXPECT_EQ(std::set<char>(possible.begin(), possible.end()), next.possible);
       EXPECT_EQ(possible.size(), next.possible.size()) << "each once";
-      walk->take(std::string_view(text).substr(i, 1));
+      walk->take(text.substr(i, 1));
     }
   }
 }

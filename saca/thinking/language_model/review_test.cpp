@@ -9,6 +9,7 @@
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
 #include "saca/thinking/language_model/example_situation.h"
 #include "saca/thinking/language_model/gbnf_for_test.h"
+#include "saca/thinking/preview/policy_facts.h"
 
 namespace saca::language_model::review_test {
 namespace {
@@ -159,7 +160,7 @@ TEST(Review, ItsGrammarTellsWhatCame) {
 TEST(Review, ElseItsFiguresAreShown) {
   Aftermath made = aftermath();
   made.forecast_harm = 0.0031;
-  Review review{.prompt = review_prompt(made), .text = "1. AEB hits truck1."};
+  const Review review{.prompt = review_prompt(made), .text = "1. AEB hits truck1."};
   EXPECT_EQ(explanation(review, made).text,
             "1. NI was carried out: hits truck1 with its front at 15.0 m/s, harm 0.0125.\n"
             "2. AEB would have harmed less by 0.0125.\n"
