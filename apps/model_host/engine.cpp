@@ -649,7 +649,6 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.threads.take_all();
-  s.look_for_others();
   return s.think(std::move(tasks).value(), deadline, form.max_tokens, clock, events);
 }
 

@@ -25,13 +25,21 @@ class ThreadChoice {
 
   /// For the next prompts and steps.
   void take_all() {
+    rehearses_alone_ = false;
     alone_ = false;
     lost_ = 0.0;
   }
-  void take_one() { alone_ = gives_way_; }
+  /// To learn what one thread takes: until `take_all`, however many cores are free.
+  void take_one() {
+    rehearses_alone_ = true;
+    alone_ = gives_way_;
+  }
 
   /// Others left so many cores of late: all threads where that is enough for them, else one.
   void note_free(double cores) {
+    if (rehearses_alone_) {
+      return;
+    }
     alone_ = gives_way_ && cores < static_cast<double>(all_) - half_a_core;
     lost_ = 0.0;
   }
@@ -80,6 +88,7 @@ class ThreadChoice {
   int all_;
   bool gives_way_;
   bool alone_ = false;
+  bool rehearses_alone_ = false;
   double lost_ = 0.0;            ///< by steps of all threads, since they last gained [s]
   double prompt_token_ = never;  ///< at best, with all threads [s]
   std::array<double, language_model::most_scenes> step_alone_{never, never, never};

@@ -64,6 +64,21 @@ TEST(ThreadChoice, FreeCoresTellItBeforehand) {
   EXPECT_EQ(only.threads(), 1);
 }
 
+// Else what one thread takes would never be known.
+TEST(ThreadChoice, FreeCoresDoNotEndARehearsalOfOneThread) {
+  ThreadChoice choice(2, true);
+  choice.take_one();
+  choice.note_free(2.0);
+  EXPECT_EQ(choice.threads(), 1);
+  choice.note_step(1, 0.013, 1.0);
+  EXPECT_EQ(choice.step_alone(1), 0.013);
+  choice.take_all();
+  choice.note_free(1.0);
+  EXPECT_EQ(choice.threads(), 1);
+  choice.note_free(2.0);
+  EXPECT_EQ(choice.threads(), 2);
+}
+
 TEST(ThreadChoice, PromptTellsIt) {
   ThreadChoice choice(2, true);
   choice.note_prompt(0.0011, disturbed);  // cold
