@@ -65,11 +65,6 @@ constexpr std::array<std::string_view, world::num_cue_kinds> cue_words{
     "low sun",
     "wet leaves on the road"};
 
-// "-0.0" would be a number that stands nowhere else.
-double without_negative_zero(double x, double resolution) {
-  return std::abs(x) < resolution / 2.0 ? 0.0 : x;
-}
-
 // Metres or metres per second, at least 0. Each digit is a token to be read: from ten on none
 // stands behind the point.
 std::string measured(double x) {
@@ -109,7 +104,7 @@ std::string ego_line(const Scene& scene) {
                                   ? ""
                                   : fmt::format(", sliding {} m/s {}", measured(std::abs(v_B.y)),
                                                 v_B.y < 0.0 ? "right" : "left");
-  const std::string_view sign = without_negative_zero(v_B.x, 0.1) < 0.0 ? "-" : "";
+  const std::string_view sign = v_B.x <= -standing ? "-" : "";  // "-0.0" would be no number
   return fmt::format("{}: {}{} m/s{}, {}, grip {:.2f}\n", ego_name, sign, measured(std::abs(v_B.x)),
                      sliding, name(scene.road.topology), scene.grip);
 }
