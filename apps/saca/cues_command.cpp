@@ -1,19 +1,9 @@
-#include <fmt/core.h>
-
 #include <array>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
-#include "apps/saca/commands.h"
-#include "apps/saca/json_output.h"
-#include "apps/saca/printing.h"
-#include "apps/saca/surveying.h"
+#include "apps/saca/options.h"
 #include "saca/lab/family_samples/counted_law_text.h"
 #include "saca/lab/family_samples/cue_report.h"
 #include "saca/lab/family_samples/drawn_cues.h"
-#include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
 namespace {
@@ -21,7 +11,7 @@ namespace {
 constexpr const char* counted_suite = "cues";
 constexpr std::array judged_suites{counted_suite, "other_cues"};
 
-struct CuesCommand {
+struct CuesOptions {
   int count = 2'000;
   std::string car = "compact_rwd_ev";
   std::string output;  ///< empty: nothing is written
@@ -29,80 +19,46 @@ struct CuesCommand {
 };
 
 /// The cues of the first encounters of a suite.
-Result<std::vector<eval::DrawnCues>> drawn(const CuesCommand& options, const std::string& suite,
-                                           const std::string& split) {
-  const auto source = open_suite(
-      {.suite = suite, .car = options.car, .count = options.count, .split = split}, "cues");
-  if (!source.has_value()) {
-    return source.error();
-  }
-  return family_samples::drawn_cues(source.value().source, suite, options.count);
+std::vector<eval::DrawnCues> drawn(const CuesOptions& options, const std::string& suite,
+                                   const std::string& split) {
+  const auto source = need(installation::open_suite(
+      here(), suite, {.count = options.count, .split = split, .car = options.car}, "cues"));
+  return need(family_samples::drawn_cues(source.source, suite, options.count));
 }
 
-int run(const CuesCommand& options) {
-  if (const auto problem = long_work::why_outputs_unwritable({options.output})) {
-    return refused(*problem);
-  }
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refused(places.error());
-  }
-  const auto law =
-      intent::load_cue_law(places.value().root / "scenarios" / "families" / "cues.toml");
-  if (!law.has_value()) {
-    return refused(law.error());
-  }
+void count_cues(const CuesOptions& options) {
+  need_writable({options.output});
+  const auto law = need(intent::load_cue_law(here().root / "scenarios" / "families" / "cues.toml"));
   const auto learnt_from = drawn(options, counted_suite, "tuning");
-  if (!learnt_from.has_value()) {
-    return refused(learnt_from.error());
-  }
-  const eval::CueCounts counts = eval::count_cues(learnt_from.value());
+  const eval::CueCounts counts = eval::count_cues(learnt_from);
   nlohmann::json figures{
       {"meta.command", fmt::format("saca cues --count {} --car {}", options.count, options.car)}};
   figures.update(family_samples::json_of(counts));
-  if (!options.as_json) {
-    app::print("{}", family_samples::text_of(counts));
-  }
+  std::string text = family_samples::text_of(counts);
   constexpr std::uint64_t seed = 1;
-  for (const char* suite : judged_suites) {
-    const auto judged = drawn(options, suite, "calibration");
-    if (!judged.has_value()) {
-      return refused(judged.error());
-    }
+  for (const char* const suite : judged_suites) {
     const auto forecasts =
-        eval::cue_forecasts(learnt_from.value(), judged.value(), law.value(), seed);
+        eval::cue_forecasts(learnt_from, drawn(options, suite, "calibration"), law, seed);
     figures.update(family_samples::json_of(suite, forecasts));
-    if (!options.as_json) {
-      app::print("{}", family_samples::text_of(suite, forecasts));
-    }
+    text += family_samples::text_of(suite, forecasts);
   }
   if (!options.output.empty()) {
-    if (auto problem = long_work::write_output(
-            options.output, family_samples::counted_law_text(law.value(), counts, counted_suite))) {
-      return refused(*problem);
-    }
+    write(options.output, family_samples::counted_law_text(law, counts, counted_suite));
   }
-  if (options.as_json) {
-    app::print_json(figures);
-  }
-  return success;
+  tell(options.as_json, figures, text);
 }
 
 }  // namespace
 
-void add_cues(CLI::App& line, int& exit_code) {
-  CLI::App* const command = line.add_subcommand(
-      "cues", "How often what a place tells of comes, and how well that is known beforehand");
-  const auto options = std::make_shared<CuesCommand>();
-  command->add_option("--count", options->count, "How many encounters of each suite")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Write what SACA is to reckon with: data/cues.toml");
-  command->add_flag("--json", options->as_json, "For programs");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+void add_cues(CLI::App& line) {
+  const auto [command, options] = add_command<CuesOptions>(
+      line, "cues", "How often what a place tells of comes, and how well that is known beforehand",
+      count_cues);
+  add(command, "--count", options.count, "How many encounters of each suite",
+      CLI::Range(1, 1'000'000));
+  add_car(command, options.car);
+  add(command, "-o,--output", options.output, "Write what SACA is to reckon with: data/cues.toml");
+  add_json(command, options.as_json);
 }
 
 }  // namespace saca::app

@@ -1,25 +1,12 @@
-#include <fmt/core.h>
-
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-
-#include "apps/saca/commands.h"
-#include "apps/saca/danger_check.h"
-#include "apps/saca/danger_making.h"
-#include "apps/saca/inputs.h"
-#include "apps/saca/json_output.h"
-#include "apps/saca/places.h"
-#include "apps/saca/printing.h"
-#include "apps/saca/settings.h"
-#include "apps/saca/stopped.h"
-#include "apps/saca/within.h"
+#include "apps/saca/options.h"
 #include "saca/base/core/clock.h"
-#include "saca/base/core/parallel.h"
-#include "saca/lab/danger_study/danger_model.h"
+#include "saca/base/core/units.h"
+#include "saca/lab/danger_study/beside_exact.h"
+#include "saca/lab/danger_study/danger_requests.h"
 #include "saca/lab/danger_study/data_set.h"
+#include "saca/lab/danger_study/usual_danger.h"
+#include "saca/lab/learned_danger/coverage.h"
+#include "saca/lab/learned_danger/point_mass.h"
 #include "saca/lab/long_work/interrupt.h"
 
 namespace saca::app {
@@ -40,104 +27,188 @@ struct DatasetOptions {
   bool as_json = false;
 };
 
-/// The networks by which evasions are driven, of this car.
-Result<std::optional<learned_danger::Network>> network_by(const std::string& path,
-                                                          const std::string& car) {
-  if (path.empty()) {
-    return std::optional<learned_danger::Network>();
-  }
-  auto weights = read_danger_weights(path);
-  if (!weights.has_value()) {
-    return weights.error();
-  }
-  if (weights.value().inputs.car_name != car) {
-    return Error{Error::Code::malformed, fmt::format("{}: want weights of the car {}, got of {}",
-                                                     path, car, weights.value().car_name)};
-  }
-  return std::optional(std::move(weights).value().network);
-}
-
-int make_dataset(const DatasetOptions& options) {
+void make_dataset(const DatasetOptions& options) {
   long_work::watch_for_interrupt();
   const auto inputs = read_inputs(options.car);
-  if (!inputs.has_value()) {
-    return refused(inputs.error());
-  }
-  auto network = network_by(options.by, inputs.value().car_name);
-  if (!network.has_value()) {
-    return refused(network.error());
-  }
   const danger_study::DataSetTask task{
       .folder = options.folder,
       .car_as_asked_for = options.car,
-      .car = {inputs.value().car_name, inputs.value().car},
+      .car = {inputs.car_name, inputs.car},
       .transitions = options.transitions,
       .seed = options.seed,
       .drives_per_part = options.drives_per_part,
       .tables = options.no_tables ? TableUse::none : TableUse::solved,
-      .network = std::move(network).value(),
+      .network = need(danger_study::network_by(here(), options.by, inputs.car_name)),
       .outcomes = options.outcomes,
       .threads = options.threads,
-      .display = progress_display()};
-  auto opened = danger_study::DataSet::open(task);
-  if (!opened.has_value()) {
-    return refused(opened.error());
-  }
-  const auto model = danger_study::model_of_drawn(danger_sources(inputs.value()), task.tables);
-  if (!model.has_value()) {
-    return refused(model.error());
-  }
+      .display = here().display};
+  danger_study::DataSet set = need(danger_study::DataSet::open(task));
+  const auto model =
+      need(danger_study::model_of_drawn(danger_study::danger_sources(here(), inputs), task.tables));
   const SteadyClock clock;
   const auto start = clock.now();
-  danger_study::DataSet set = std::move(opened).value();
-  const auto all = set.make(model.value());
-  if (!all.has_value()) {
-    return stopped(all.error());
+  const auto all = need(set.make(model), was_interrupted);
+  tell(options.as_json, danger_study::json_of(task, all, to_seconds(clock.now() - start)),
+       danger_study::text_of(task, all));
+}
+
+void add_dataset(CLI::App& danger) {
+  const auto [command, options] = add_command<DatasetOptions>(
+      danger, "dataset",
+      "Simulate transitions of the full vehicle beside obstacles; can be interrupted",
+      make_dataset);
+  add_needed(command, "FOLDER", options.folder, "Of the parts; made if it is not there");
+  add(command, "--transitions", options.transitions, "At least so many",
+      CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+  add_car(command, options.car);
+  add(command, "--seed", options.seed, "");
+  add(command, "--part-drives", options.drives_per_part, "Drives of the ego in a part",
+      CLI::Range(1, 100'000));
+  command.add_flag("--no-tables", options.no_tables,
+                   "Look for the boundary and the way out by arcs, not by solved tables of danger");
+  add(command, "--by", options.by, "Weights of saca-train-danger: evasions are driven by their Q");
+  command
+      .add_flag("--outcomes", options.outcomes,
+                "All drives by their Q to the end: what it comes to")
+      ->needs("--by");
+  add_threads(command, options.threads, "They do not change what is made");
+  add_json(command, options.as_json);
+}
+
+struct CheckDangerOptions : danger_study::SituationsRequest {
+  bool as_json = false;
+};
+
+void check_danger(const CheckDangerOptions& options) {
+  long_work::watch_for_interrupt();
+  const auto [report, car] = need(danger_study::check_weights(here(), options), was_interrupted);
+  nlohmann::json figures = danger_study::json_of(report);
+  figures.update({{"meta.weights", options.weights},
+                  {"meta.car", car},
+                  {"meta.situations", options.situations},
+                  {"meta.seed", std::to_string(options.seed)}});
+  tell(options.as_json, figures, danger_study::text_of(report));
+}
+
+void add_danger_check(CLI::App& danger) {
+  const auto [command, options] = add_command<CheckDangerOptions>(
+      danger, "check",
+      "Drive the full vehicle by learnt V_h and Q_h, and tell how often they are wrong",
+      check_danger);
+  add_needed(command, "WEIGHTS", options.weights, "safetensors file of saca-train-danger");
+  add(command, "--situations", options.situations, "", CLI::Range(2, 10'000'000));
+  add(command, "--seed", options.seed, "");
+  add_threads(command, options.threads, "They do not change the figures");
+  add_json(command, options.as_json);
+}
+
+struct CoverageOptions : danger_study::CoverageTask {
+  bool as_json = false;
+};
+
+void tell_coverage(const CoverageOptions& options) {
+  long_work::watch_for_interrupt();
+  danger_study::CoverageTask task = options;
+  task.display = here().display;
+  const auto [bins, car] = need(danger_study::coverage_in(here(), task), was_interrupted);
+  nlohmann::json figures = danger_study::json_of(bins);
+  figures.update({{"meta.car", car}, {"meta.threads", options.threads}});
+  tell(options.as_json, figures, danger_study::text_of(bins));
+}
+
+void add_coverage(CLI::App& danger) {
+  const auto [command, options] = add_command<CoverageOptions>(
+      danger, "coverage",
+      "How near the inputs of a data set come to the exact best ones, by speed and grip",
+      tell_coverage);
+  add_needed(command, "FOLDER", options.folder, "Of the parts that `saca danger dataset` made");
+  add(command, "--states", options.states, "Of each bin, whose best inputs are looked for, at most",
+      CLI::Range(1, 100'000));
+  add(command, "--among", options.others, "Likewise, among which they are looked for",
+      CLI::Range(static_cast<int>(learned_danger::CoverageSurvey::num_alike), 10'000'000));
+  add_threads(command, options.threads, "They do not change the figures");
+  add_json(command, options.as_json);
+}
+
+struct MarginOptions : danger_study::SituationsRequest {
+  std::string output;  ///< empty: the weights
+  bool as_json = false;
+};
+
+void fit_margins(const MarginOptions& options) {
+  long_work::watch_for_interrupt();
+  const auto report =
+      need(danger_study::fit_margins(here(), options, options.output), was_interrupted);
+  nlohmann::json figures = danger_study::json_of(report);
+  figures.update({{"meta.weights", options.weights},
+                  {"meta.situations", report.situations},
+                  {"meta.seed", std::to_string(options.seed)}});
+  tell(options.as_json, figures, danger_study::text_of(report));
+}
+
+void add_margins(CLI::App& danger) {
+  const auto [command, options] = add_command<MarginOptions>(
+      danger, "margins",
+      "Fit what is added to learnt V_h, so that what it tells safe is hardly ever hit",
+      fit_margins);
+  options.situations = 400'000;
+  add_needed(command, "WEIGHTS", options.weights, "safetensors file of saca-train-danger");
+  add(command, "--output", options.output, "The same weights with margins; else WEIGHTS");
+  add(command, "--situations", options.situations, "Driven where they are told safe",
+      CLI::Range(1, 100'000'000));
+  add(command, "--seed", options.seed, "");
+  add_threads(command, options.threads, "They do not change the margins");
+  add_json(command, options.as_json);
+}
+
+struct ShowDangerOptions {
+  std::string weights;
+  std::string table;
+  std::string output = "reach/learnt.png";
+  std::vector<double> speeds_mps{10.0, 18.0};
+  double course_deg = 0.0;
+};
+
+void show_danger(const ShowDangerOptions& options) {
+  if (fs::path(options.output).extension() != ".png") {
+    refuse(wrong_command_line,
+           fmt::format("--output: want a name that ends in .png, got '{}'", options.output));
   }
-  if (options.as_json) {
-    print_json(danger_study::json_of(task, all.value(), to_seconds(clock.now() - start)));
-  } else {
-    app::print("{}", danger_study::text_of(task, all.value()));
-  }
-  return success;
+  const auto weights = need(danger_study::read_network(options.weights));
+  const auto exact = need(learned_danger::read_exact_point_mass(options.table));
+  need_writable({options.output});
+  write(options.output,
+        need(danger_study::beside_exact_png(weights, exact,
+                                            {.weights = options.weights,
+                                             .table = options.table,
+                                             .speeds = options.speeds_mps,
+                                             .course = from_degrees(options.course_deg)})));
+  app::print("{}\n", fs::absolute(options.output).string());
+}
+
+void add_danger_show(CLI::App& danger) {
+  const auto [command, options] = add_command<ShowDangerOptions>(
+      danger, "show",
+      "Draw learnt V_h, without its margins, beside the exact value of a point mass", show_danger);
+  add_needed(command, "WEIGHTS", options.weights, "safetensors file");
+  add_needed(command, "--table", options.table,
+             "Solved values beside an obstacle at rest (`saca reach solve`)");
+  add(command, "--output", options.output, "A picture (.png)");
+  add(command, "--speed-mps", options.speeds_mps, "A row of maps for each", within(0.0, 40.0));
+  add(command, "--course-deg", options.course_deg, "Of the ego, one for all",
+      within(-180.0, 180.0));
 }
 
 }  // namespace
 
-void add_danger(CLI::App& line, int& exit_code) {
-  CLI::App* const command = line.add_subcommand(
-      "danger", "V_h and Q_h, learnt: what they are learnt from, and what they are worth");
-  command->require_subcommand(1);
-  const auto options = std::make_shared<DatasetOptions>();
-  CLI::App* const dataset = command->add_subcommand(
-      "dataset", "Simulate transitions of the full vehicle beside obstacles; can be interrupted");
-  dataset->add_option("FOLDER", options->folder, "Of the parts; made if it is not there")
-      ->required();
-  dataset->add_option("--transitions", options->transitions, "At least so many")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
-      ->capture_default_str();
-  dataset->add_option("--car", options->car, "A car's file, or the name of a shipped one")
-      ->capture_default_str();
-  dataset->add_option("--seed", options->seed)->capture_default_str();
-  dataset->add_option("--part-drives", options->drives_per_part, "Drives of the ego in a part")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  dataset->add_flag(
-      "--no-tables", options->no_tables,
-      "Look for the boundary and the way out by arcs, not by solved tables of danger");
-  dataset->add_option("--by", options->by,
-                      "Weights of saca-train-danger: evasions are driven by their Q");
-  dataset
-      ->add_flag("--outcomes", options->outcomes,
-                 "All drives by their Q to the end: what it comes to")
-      ->needs("--by");
-  add_threads(*dataset, options->threads, "They do not change what is made");
-  dataset->add_flag("--json", options->as_json, "For programs");
-  dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
-  add_danger_check(*command, exit_code);
-  add_danger_coverage(*command, exit_code);
-  add_danger_margins(*command, exit_code);
-  add_danger_show(*command, exit_code);
+void add_danger(CLI::App& line) {
+  CLI::App& danger = add_group(
+      line, "danger", "V_h and Q_h, learnt: what they are learnt from, and what they are worth");
+  add_dataset(danger);
+  add_danger_check(danger);
+  add_coverage(danger);
+  add_margins(danger);
+  add_danger_show(danger);
 }
 
 }  // namespace saca::app

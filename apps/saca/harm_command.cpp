@@ -1,13 +1,4 @@
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
-
-#include "apps/saca/commands.h"
-#include "apps/saca/json_output.h"
-#include "apps/saca/places.h"
-#include "apps/saca/printing.h"
-#include "saca/lab/long_work/output_file.h"
+#include "apps/saca/options.h"
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/lab/report/harm_chart.h"
 #include "saca/lab/vehicle_study/harm_report.h"
@@ -20,40 +11,24 @@ struct HarmOptions {
   bool as_json = false;
 };
 
-int harm(const HarmOptions& options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refused(places.error());
+void tell_harm(const HarmOptions& options) {
+  const fs::path file = here().root / "data" / "harm.toml";
+  const auto model = need(prepare::read_harm(file));
+  tell(options.as_json, vehicle_study::json_of(model),
+       vehicle_study::text_of(model, file.string()));
+  if (!options.svg.empty()) {
+    write(options.svg, report::harm_svg(model));
   }
-  const std::filesystem::path file = places.value().root / "data" / "harm.toml";
-  const auto model = prepare::read_harm(file);
-  if (!model.has_value()) {
-    return refused(model.error());
-  }
-  if (options.as_json) {
-    app::print_json(vehicle_study::json_of(model.value()));
-  } else {
-    app::print("{}", vehicle_study::text_of(model.value(), file.string()));
-  }
-  if (options.svg.empty()) {
-    return success;
-  }
-  if (const auto error = long_work::write_output(options.svg, report::harm_svg(model.value()))) {
-    return refused(*error);
-  }
-  return success;
 }
 
 }  // namespace
 
-void add_harm(CLI::App& line, int& exit_code) {
-  CLI::App* const command =
-      line.add_subcommand("harm", "How contact becomes harm: the risk curves that decisions use");
-  const auto options = std::make_shared<HarmOptions>();
-  command->add_option("--svg", options->svg, "Also draws the curves, with their sources, into FILE")
+void add_harm(CLI::App& line) {
+  const auto [command, options] = add_command<HarmOptions>(
+      line, "harm", "How contact becomes harm: the risk curves that decisions use", tell_harm);
+  add(command, "--svg", options.svg, "Also draws the curves, with their sources, into FILE")
       ->type_name("FILE");
-  command->add_flag("--json", options->as_json, "For programs");
-  command->callback([options, &exit_code] { exit_code = harm(*options); });
+  add_json(command, options.as_json);
 }
 
 }  // namespace saca::app

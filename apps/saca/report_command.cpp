@@ -1,12 +1,5 @@
-#include <filesystem>
-#include <memory>
-#include <string>
-
-#include "apps/saca/commands.h"
-#include "apps/saca/places.h"
-#include "apps/saca/printing.h"
+#include "apps/saca/options.h"
 #include "saca/base/core/file.h"
-#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/report/record_page.h"
 
 namespace saca::app {
@@ -17,35 +10,27 @@ struct ReportOptions {
   std::string output;
 };
 
-int render(const ReportOptions& options) {
-  const auto text = read_file(options.record, many_bytes);
-  if (!text.has_value()) {
-    return refused(text.error());
-  }
-  const auto page = report::html_report(text.value());
+void render(const ReportOptions& options) {
+  const std::string text = need(read_file(options.record, many_bytes));
+  const auto page = report::html_report(text);
   if (!page.has_value()) {
-    return refused({page.error().code, options.record + ": " + page.error().message});
+    refuse({page.error().code, options.record + ": " + page.error().message});
   }
-  const std::filesystem::path file =
-      options.output.empty() ? std::filesystem::path(options.record).replace_filename("report.html")
-                             : std::filesystem::path(options.output);
-  if (const auto problem = long_work::write_output(file, page.value())) {
-    return refused(*problem);
-  }
-  app::print("Report: {}\n", std::filesystem::absolute(file).string());
-  return success;
+  const fs::path file = options.output.empty()
+                            ? fs::path(options.record).replace_filename("report.html")
+                            : fs::path(options.output);
+  write(file, page.value());
+  app::print("Report: {}\n", fs::absolute(file).string());
 }
 
 }  // namespace
 
-void add_report(CLI::App& line, int& exit_code) {
-  CLI::App* const command =
-      line.add_subcommand("report", "Make the page of a run again from its record");
-  const auto options = std::make_shared<ReportOptions>();
-  command->add_option("record", options->record, "A record.json that `saca run` left")->required();
-  command->add_option("-o,--output", options->output,
-                      "Where the page goes (default: report.html beside the record)");
-  command->callback([options, &exit_code] { exit_code = render(*options); });
+void add_report(CLI::App& line) {
+  const auto [command, options] = add_command<ReportOptions>(
+      line, "report", "Make the page of a run again from its record", render);
+  add_needed(command, "record", options.record, "A record.json that `saca run` left");
+  add(command, "-o,--output", options.output,
+      "Where the page goes (default: report.html beside the record)");
 }
 
 }  // namespace saca::app

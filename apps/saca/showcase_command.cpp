@@ -1,28 +1,17 @@
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
-
-#include "apps/saca/commands.h"
-#include "apps/saca/json_output.h"
-#include "apps/saca/places.h"
-#include "apps/saca/printing.h"
-#include "apps/saca/settings.h"
-#include "apps/saca/surveying.h"
-#include "apps/saca/within.h"
+#include "apps/saca/options.h"
 #include "saca/lab/family_samples/showcase_json.h"
-#include "saca/lab/long_work/output_file.h"
 #include "saca/lab/policy_study/policy_sheet.h"
 
 namespace saca::app {
 namespace {
 
-namespace fs = std::filesystem;
-using manoeuvre::PolicyId;
 using nlohmann::json;
 
-struct ShowcaseCommand {
-  SurveyOptions survey;
+constexpr const char* survey_goes_on =
+    "interrupted; the survey goes on where it stopped when the same command is given";
+
+struct ShowcaseOptions {
+  installation::SurveyRequest survey;
   eval::ShowcaseRule rule;
   unsigned long seed = 1;
   int tries = 40;
@@ -30,115 +19,71 @@ struct ShowcaseCommand {
   bool as_json = false;
 };
 
-std::optional<Error> write(const family_samples::ShowcaseScene& one, const std::string& output) {
-  const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
-  if (auto problem = long_work::write_output(file, scenario::write_scenario(one.scenario))) {
-    return problem;
+/// The scenes of one policy, each written as a scenario and a picture, and told of.
+std::vector<family_samples::ShowcaseScene> search_policy(
+    const family_samples::ShowcaseSearch& search, const std::vector<eval::Finding>& findings,
+    manoeuvre::PolicyId policy, const ShowcaseOptions& options) {
+  auto found =
+      need_whole(family_samples::showcase_scenes(search, findings, policy), survey_goes_on);
+  for (const family_samples::ShowcaseScene& one : found) {
+    const fs::path file = fs::path(options.output) / one.scenario.name;
+    write(file.string() + ".toml", scenario::write_scenario(one.scenario));
+    write(file.string() + ".svg",
+          report::contact_sheet(policy_study::sheet_of(one.oracle, one.scenario)));
+    tell_meanwhile(options.as_json, fmt::format("{}: {}\n", one.scenario.name, one.scenario.why));
   }
-  return long_work::write_output(
-      fs::path(output) / (one.scenario.name + ".svg"),
-      report::contact_sheet(policy_study::sheet_of(one.oracle, one.scenario)));
+  return found;
 }
 
-/// What was found for all policies.
-struct Found {
+void search_showcases(const ShowcaseOptions& options) {
+  const auto suite = need(installation::open_suite(here(), options.survey, "search-showcase"));
+  need_writable({fs::path(options.output) / "x.toml"});
+  const auto findings =
+      need_whole(installation::survey(here(), suite, options.survey), survey_goes_on);
+  const family_samples::ShowcaseSearch search{.source = &suite.source,
+                                              .car = &suite.inputs.car,
+                                              .harm = &suite.inputs.harm,
+                                              .rule = options.rule,
+                                              .seed = options.seed,
+                                              .tries = options.tries,
+                                              .threads = options.survey.threads,
+                                              .display = here().display};
   json list = json::array();
-  int missing = 0;  ///< scenes that are wanted and were not found
-  bool interrupted = false;
-};
-
-/// Searches, writes and tells of what it finds, policy by policy.
-Result<Found> search_all(const family_samples::ShowcaseSearch& search,
-                         const std::vector<eval::Finding>& findings,
-                         const ShowcaseCommand& options) {
-  Found all;
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    const auto found = family_samples::showcase_scenes(search, findings, policy);
-    if (!found.has_value()) {
-      return found.error();
-    }
-    if (!found.value()) {
-      all.interrupted = true;
-      break;
-    }
-    all.missing += family_samples::wanted(policy) - static_cast<int>(found.value()->size());
-    for (const family_samples::ShowcaseScene& one : *found.value()) {
-      if (const auto problem = write(one, options.output)) {
-        return *problem;
-      }
-      all.list.push_back(family_samples::json_of(one, policy));
-      if (!options.as_json) {
-        app::print("{}: {}\n", one.scenario.name, one.scenario.why);
-      }
+  int missing = 0;  // scenes that are wanted and were not found
+  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+    const auto found = search_policy(search, findings, policy, options);
+    missing += family_samples::wanted(policy) - static_cast<int>(found.size());
+    for (const family_samples::ShowcaseScene& one : found) {
+      list.push_back(family_samples::json_of(one, policy));
     }
   }
-  return all;
-}
-
-int run(const ShowcaseCommand& options) {
-  const auto source = open_suite(options.survey, "search-showcase");
-  if (!source.has_value()) {
-    return refused(source.error());
-  }
-  if (const auto problem =
-          long_work::why_outputs_unwritable({fs::path(options.output) / "x.toml"})) {
-    return refused(*problem);
-  }
-  const auto findings = survey(source.value(), options.survey);
-  if (!findings.has_value()) {
-    return refused(findings.error());
-  }
-  const DrawnSuite& suite = source.value();
-  const auto found = findings.value() ? search_all({.source = &suite.source,
-                                                    .car = &suite.inputs.car,
-                                                    .harm = &suite.inputs.harm,
-                                                    .rule = options.rule,
-                                                    .seed = options.seed,
-                                                    .tries = options.tries,
-                                                    .threads = options.survey.threads,
-                                                    .display = progress_display()},
-                                                   *findings.value(), options)
-                                      : Result(Found{.interrupted = true});
-  if (!found.has_value()) {
-    return refused(found.error());
-  }
-  const Found& all = found.value();
-  if (all.interrupted) {
-    complain("interrupted; the survey goes on where it stopped when the same command is given");
-    return was_interrupted;
-  }
-  if (options.as_json) {
-    app::print_json(
-        json{{"schema", "saca.showcase/1"}, {"missing", all.missing}, {"found", all.list}});
-  } else if (all.missing > 0) {
-    app::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
-               all.missing);
-  }
-  return success;
+  const std::string text =
+      missing > 0
+          ? fmt::format(
+                "{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
+                missing)
+          : "";
+  tell(options.as_json,
+       json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", std::move(list)}}, text);
 }
 
 }  // namespace
 
-void add_search_showcase(CLI::App& line, int& exit_code) {
-  CLI::App* const command = line.add_subcommand(
-      "search-showcase",
-      "Search, for each policy, a scene in which it alone is best; can be interrupted");
-  const auto options = std::make_shared<ShowcaseCommand>();
-  add_survey_options(*command, options->survey);
-  command->add_option("--clear", options->rule.clear, "Least expected harm that it spares")
-      ->check(within(0.0, 10.0))
-      ->capture_default_str();
-  command->add_option("--draws", options->rule.draws, "Under which it must do so")
-      ->check(CLI::Range(2, 1'000'000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the draws")->capture_default_str();
-  command->add_option("--tries", options->tries, "Candidates of each policy that are tried")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  command->add_option("--output", options->output, "Folder for scenarios and pictures")
-      ->capture_default_str();
-  command->add_flag("--json", options->as_json, "For programs");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+void add_search_showcase(CLI::App& line) {
+  const auto [command, options] = add_command<ShowcaseOptions>(
+      line, "search-showcase",
+      "Search, for each policy, a scene in which it alone is best; can be interrupted",
+      search_showcases);
+  add_survey_options(command, options.survey);
+  add(command, "--clear", options.rule.clear, "Least expected harm that it spares",
+      within(0.0, 10.0));
+  add(command, "--draws", options.rule.draws, "Under which it must do so",
+      CLI::Range(2, 1'000'000));
+  add(command, "--seed", options.seed, "Of the draws");
+  add(command, "--tries", options.tries, "Candidates of each policy that are tried",
+      CLI::Range(1, 1'000'000));
+  add(command, "--output", options.output, "Folder for scenarios and pictures");
+  add_json(command, options.as_json);
 }
 
 }  // namespace saca::app

@@ -1,204 +1,194 @@
-#include <fmt/core.h>
-
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "apps/saca/commands.h"
-#include "apps/saca/json_output.h"
-#include "apps/saca/printing.h"
-#include "apps/saca/regulation_command.h"
-#include "apps/saca/suite_pages.h"
-#include "apps/saca/traffic_suite.h"
-#include "saca/lab/long_work/output_file.h"
+#include "apps/saca/options.h"
+#include "saca/lab/installation/shipped_files.h"
+#include "saca/lab/regulation/regulation_json.h"
+#include "saca/lab/regulation/regulation_page.h"
+#include "saca/lab/regulation/regulation_request.h"
+#include "saca/lab/regulation/regulation_text.h"
+#include "saca/lab/suites/method_list.h"
+#include "saca/lab/suites/opened_suite.h"
 #include "saca/lab/suites/suite_json.h"
 #include "saca/lab/suites/suite_text.h"
+#include "saca/lab/suites/traffic_json.h"
+#include "saca/lab/suites/traffic_page.h"
+#include "saca/lab/suites/traffic_text.h"
 
 namespace saca::app {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct SuiteCommand {
-  suites::SuiteRequest suite;
+struct SuiteOptions {
+  suites::SuiteRequest suite{.methods = suites::usual_methods({})};
   std::optional<std::uint64_t> replay;
   std::string rows;  ///< of a regulation
   bool as_json = false;
+  const CLI::App* line = nullptr;  ///< that they were given in
 };
 
-constexpr const char* traffic_suite = "traffic";
-
-std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const json& figures,
-                           const suites::SuiteRequest& options) {
-  if (auto problem = write_rows_and_page(run, result, options)) {
-    return problem;
-  }
-  return long_work::write_output(fs::path(options.output).replace_extension(".json"),
-                                 json_text(figures) + "\n");
+bool given(const SuiteOptions& options, const char* option) {
+  return options.line->count(option) > 0;
 }
 
-int watch(const SuiteCommand& options) {
-  const suites::SuiteRequest& suite = options.suite;
-  return run_traffic_suite(
-      {.folders = suite.data,
-       .count = suite.count,
-       .seed = suite.seed,
-       .car = suite.car,
-       .thresholds = suite.thresholds,
-       .output = suite.output.empty() ? "runs/suite-traffic.html" : suite.output,
-       .threads = suite.threads},
-      options.as_json);
+bool thinks(const SuiteOptions& options) {
+  return given(options, "--memory") || given(options, "--llm") || given(options, "--untuned");
 }
 
-bool thinks(const CLI::App& line) {
-  return line.count("--memory") > 0 || line.count("--llm") > 0 || line.count("--untuned") > 0;
+/// Leaves the page and beside it the figures, and tells of them.
+/// @param page  its name
+void write_and_tell(const fs::path& page, const report::SuitePage& made, const json& figures,
+                    bool as_json, const std::string& text) {
+  write(page, report::suite_page(made));
+  write(fs::path(page).replace_extension(".json"), json_text(figures));
+  tell(as_json, figures, text);
 }
 
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
-int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
+ExitCode run_as_regulation(const SuiteOptions& options) {
+  const suites::SuiteRequest& suite = options.suite;
   for (const char* const name : {"--count", "--split", "--test-log", "--seed", "--exact",
                                  "--no-twins", "--replay", "--t1-s", "--waiting-cost"}) {
-    if (line.count(name) > 0) {
-      complain(fmt::format("{}: {} is a regulation, which is run as it stands", name,
-                           options.suite.name));
-      return wrong_command_line;
+    if (given(options, name)) {
+      refuse(wrong_command_line,
+             fmt::format("{}: {} is a regulation, which is run as it stands", name, suite.name));
     }
   }
-  if (thinks(line)) {
-    complain(fmt::format("--memory, --llm, --untuned: {} tests SACA as it ships, without them",
-                         options.suite.name));
-    return wrong_command_line;
+  if (thinks(options)) {
+    refuse(wrong_command_line,
+           fmt::format("--memory, --llm, --untuned: {} tests SACA as it ships, without them",
+                       suite.name));
   }
-  RegulationOptions tests{.name = options.suite.name,
-                          .rows = options.rows,
-                          .output = options.suite.output,
-                          .threads = options.suite.threads,
-                          .as_json = options.as_json};
-  if (line.count("--methods") > 0) {
-    tests.methods = options.suite.methods;
+  regulation::RegulationRequest request{
+      .name = suite.name, .rows = options.rows, .threads = suite.threads};
+  if (given(options, "--methods")) {
+    request.methods = suite.methods;
   }
-  if (line.count("--car") > 0) {
-    tests.cars = options.suite.car;
+  if (given(options, "--car")) {
+    request.cars = suite.car;
   }
-  return run_regulation(tests);
+  const auto methods =
+      need_of_line(suites::methods_from(request.methods == "all" ? "" : request.methods, {}, ""));
+  const std::string output =
+      suite.output.empty() ? fmt::format("runs/suite-{}.html", suite.name) : suite.output;
+  if (fs::path(output).extension() != ".html") {
+    refuse(wrong_command_line, "--output: want a name that ends in .html, got \"" + output + "\"");
+  }
+  need_writable({output});
+  const auto run = need_whole(regulation::run_regulation(here(), request, methods), "interrupted");
+  write_and_tell(output, page_of(run), json_of(run), options.as_json,
+                 fmt::format("{}\npage: {}\n", text_of(run), output));
+  return has_faults(run) ? some_failed : success;
 }
 
-/// Why the line cannot be meant as it stands; nullopt: it can.
-std::optional<std::string> why_wrong(const CLI::App& line, const SuiteCommand& options) {
+/// SACA beside recorded drives, in shadow.
+void watch_traffic(const SuiteOptions& options) {
   const suites::SuiteRequest& suite = options.suite;
-  if (!options.rows.empty()) {
-    return "--rows: want it of a regulation (fmvss127, r152), got " + suite.name;
+  const suites::TrafficWatch watch{
+      .folders = suite.data,
+      .count = suite.count,
+      .seed = suite.seed,
+      .car = suite.car,
+      .thresholds = suite.thresholds,
+      .output = suite.output.empty() ? "runs/suite-traffic.html" : suite.output,
+      .threads = suite.threads};
+  need_writable({watch.output});
+  const auto planes =
+      need(vehicle_study::open_planes(here(), read_inputs(watch.car), watch.thresholds));
+  const suites::WatchTools tools{
+      .car = &planes->inputs.car, .intent = &planes->inputs.intent, .saca = &planes->setup};
+  const auto traffic =
+      need_whole(suites::watch_traffic(watch, tools, SACA_VERSION, here().display));
+  if (suites::shadow_figures(traffic.rows, "").drives == 0) {
+    refuse(bad_input,
+           fmt::format("{}: want drives that can be watched, got none of {}: {}",
+                       watch.folders.front(), traffic.rows.size(), traffic.rows.front().left_out));
   }
-  if ((suite.name == traffic_suite || suite.name == "100car") == suite.data.empty()) {
-    return "--data: want it with the suites 100car and traffic, and only there";
-  }
-  if (suite.name == traffic_suite && thinks(line)) {
-    return "--memory, --llm, --untuned: SACA watches the suite traffic with the verdict alone";
-  }
-  return std::nullopt;
+  const json figures = suites::traffic_json(traffic, watch, SACA_VERSION);
+  const fs::path page = fs::path(watch.output).replace_extension(".html");
+  write_and_tell(page, suites::traffic_page(traffic, tools, figures), figures, options.as_json,
+                 fmt::format("{}page: {}, figures: {}\n", suites::traffic_text(traffic),
+                             page.string(), fs::path(page).replace_extension(".json").string()));
 }
 
-int replay(const suites::SuiteRequest& suite, std::uint64_t number) {
-  const auto command = write_encounter(suite, number);
-  if (!command.has_value()) {
-    return refused(command.error());
-  }
-  app::print("{}\n", command.value());
-  return success;
+/// Writes an encounter as a scenario, as the suite plays it, and tells what plays it.
+void write_encounter(const SuiteOptions& options) {
+  const auto source = need(suites::open_encounters(here(), options.suite, "suite"));
+  const auto replay = need(suites::replay_of(source, options.suite, *options.replay));
+  write(replay.file, replay.text);
+  app::print("{}\n", replay.command);
 }
 
-int write_and_print(const SuiteRun& run, const suites::SuiteRequest& suite, bool as_json) {
-  const SuiteResult result = result_of(run, suite.seed);
-  const json figures = suites::json_of(run, result, suite);
-  if (const auto problem = write(run, result, figures, suite)) {
-    return refused(*problem);
+ExitCode play_suite(const SuiteOptions& options) {
+  suites::SuiteRequest suite = options.suite;
+  if (!given(options, "--methods")) {
+    suite.methods = suites::usual_methods(suite.thinking);
   }
-  if (as_json) {
-    app::print_json(figures);
-  } else {
-    app::print("{}page: {}, rows: {}\n", suites::text_of(run, result, suite),
-               fs::path(suite.output).replace_extension(".html").string(), suite.output);
-  }
-  return result.faults + result.method_faults > 0 ? some_failed : success;
-}
-
-int play(suites::SuiteRequest suite, const std::vector<std::string>& methods, bool as_json) {
+  const auto methods = need_of_line(suites::methods_from(
+      suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger));
   if (suite.output.empty()) {
     suite.output =
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
   }
-  if (const auto problem = long_work::why_outputs_unwritable({suite.output})) {
-    return refused(*problem);
-  }
-  const auto ran = run_suite(suite, "suite", methods);
-  if (!ran.has_value()) {
-    return refused(ran.error());
-  }
-  if (!ran.value()) {
-    complain("interrupted; the same command goes on where this one stopped");
-    return was_interrupted;
-  }
-  return write_and_print(*ran.value(), suite, as_json);
+  need_writable({suite.output});
+  const auto run = need_whole(suites::run_suite(here(), suite, "suite", methods));
+  const suites::SuiteResult result = suites::result_of(run, suite.seed);
+  const json figures = suites::json_of(run, result, suite);
+  need(suites::write_rows_and_page(run, result, suite));
+  write(fs::path(suite.output).replace_extension(".json"), json_text(figures));
+  tell(options.as_json, figures,
+       fmt::format("{}page: {}, rows: {}\n", suites::text_of(run, result, suite),
+                   fs::path(suite.output).replace_extension(".html").string(), suite.output));
+  return result.faults + result.method_faults > 0 ? some_failed : success;
 }
 
-int run(const CLI::App& line, SuiteCommand options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    return refused(places.error());
+ExitCode run_suite(const SuiteOptions& options) {
+  const suites::SuiteRequest& suite = options.suite;
+  if (fs::exists(installation::regulation_place(here(), suite.name))) {
+    return run_as_regulation(options);
   }
-  suites::SuiteRequest& suite = options.suite;
-  if (fs::exists(regulation_path(places.value(), suite.name))) {
-    return run_as_regulation(line, options);
+  const bool is_traffic = suite.name == "traffic";
+  if (!options.rows.empty()) {
+    refuse(wrong_command_line,
+           "--rows: want it of a regulation (fmvss127, r152), got " + suite.name);
   }
-  if (const auto problem = why_wrong(line, options)) {
-    complain(*problem);
-    return wrong_command_line;
+  if ((is_traffic || suite.name == "100car") == suite.data.empty()) {
+    refuse(wrong_command_line,
+           "--data: want it with the suites 100car and traffic, and only there");
   }
-  if (suite.name == traffic_suite) {
-    return watch(options);
+  if (is_traffic && thinks(options)) {
+    refuse(wrong_command_line,
+           "--memory, --llm, --untuned: SACA watches the suite traffic with the verdict alone");
   }
-  if (options.replay) {
-    return replay(suite, *options.replay);
+  if (is_traffic) {
+    watch_traffic(options);
+  } else if (options.replay) {
+    write_encounter(options);
+  } else {
+    return play_suite(options);
   }
-  if (line.count("--methods") == 0) {
-    suite.methods = suites::usual_methods(suite.thinking);
-  }
-  const auto methods =
-      methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger);
-  if (!methods.has_value()) {
-    complain(methods.error().message);
-    return wrong_command_line;
-  }
-  return play(suite, methods.value(), options.as_json);
+  return success;
 }
 
 }  // namespace
 
-void add_suite(CLI::App& line, int& exit_code) {
-  CLI::App* const command = line.add_subcommand(
-      "suite",
+void add_suite(CLI::App& line) {
+  const auto [command, options] = add_command<SuiteOptions>(
+      line, "suite",
       "Run methods in closed loop over many encounters, paired, or over what a regulation asks "
-      "(fmvss127, r152); can be interrupted");
-  const auto options = std::make_shared<SuiteCommand>();
-  options->suite.methods = suites::usual_methods({});
-  add_suite_options(*command, options->suite);
-  add_untuned_option(*command, options->suite.thinking);
-  command
-      ->add_option("--methods", options->suite.methods,
-                   "Names, separated by commas; all: every one. With --memory or --llm the "
-                   "default has SACA without it as well, with --untuned SACA with that model")
-      ->capture_default_str();
-  command->add_option("--replay", options->replay,
-                      "Write encounter N as a scenario, and print the command that plays it");
-  command->add_flag("--no-twins", options->suite.no_twins, "Leave the twins without risk out");
-  command->add_option("--rows", options->rows,
-                      "Of a regulation, only these tests: names of its file, separated by commas");
-  command->add_flag("--json", options->as_json, "For programs");
-  command->callback([command, options, &exit_code] { exit_code = run(*command, *options); });
+      "(fmvss127, r152); can be interrupted",
+      run_suite);
+  options.line = &command;
+  suites::SuiteRequest& suite = options.suite;
+  add_suite_options(command, suite);
+  add_untuned_option(command, suite.thinking.untuned);
+  add(command, "--methods", suite.methods,
+      "Names, separated by commas; all: every one. With --memory or --llm the default has SACA "
+      "without it as well, with --untuned SACA with that model");
+  add(command, "--replay", options.replay,
+      "Write encounter N as a scenario, and print the command that plays it");
+  command.add_flag("--no-twins", suite.no_twins, "Leave the twins without risk out");
+  add(command, "--rows", options.rows,
+      "Of a regulation, only these tests: names of its file, separated by commas");
+  add_json(command, options.as_json);
 }
 
 }  // namespace saca::app

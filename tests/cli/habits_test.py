@@ -90,7 +90,7 @@ def exit_codes_of(text):
 def test_the_table_of_exit_codes_has_all_of_them():
     formats = (ROOT / "docs/formats.md").read_text()
     table = formats.partition("## Exit codes of `saca`")[2]
-    source = (ROOT / "apps/saca/places.h").read_text()
+    source = (ROOT / "apps/saca/command.h").read_text()
     declared = {int(code) for code in re.findall(r"^  \w+ = (\d+),", source.partition("enum ExitCode")[2].partition("};")[0], re.M)}
     assert exit_codes_of(table) == declared and {SUCCESS, NOTHING_TO_DECIDE, TOO_SLOW} <= declared
 

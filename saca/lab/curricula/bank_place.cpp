@@ -18,8 +18,9 @@ std::optional<Error> why_in_the_way(const fs::path& bank, const fs::path& folder
       replaced.end();
   return inside ? std::optional(Error{
                       Error::Code::out_of_range,
-                      fmt::format("want a bank outside of {}, whose banks are replaced, got {}",
-                                  folder.string(), bank.string())})
+                      fmt::format(
+                          "--memory: want a bank outside of {}, whose banks are replaced, got {}",
+                          folder.string(), bank.string())})
                 : std::nullopt;
 }
 

@@ -10,7 +10,7 @@ TEST(BankPlace, ABankWithinTheFolderIsInTheWay) {
   ASSERT_TRUE(problem.has_value());
   EXPECT_EQ(problem->code, Error::Code::out_of_range);
   EXPECT_EQ(problem->message,
-            "want a bank outside of /banks/way, whose banks are replaced, got "
+            "--memory: want a bank outside of /banks/way, whose banks are replaced, got "
             "/banks/way/seed-1/learning.sqlite");
   EXPECT_TRUE(why_in_the_way("/banks/other/../way/mine.sqlite", "/banks/way").has_value());
 }

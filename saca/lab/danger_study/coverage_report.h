@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "saca/base/core/parallel.h"
 #include "saca/base/core/result.h"
 #include "saca/lab/learned_danger/coverage.h"
 #include "saca/lab/learned_danger/transition_file.h"
@@ -20,7 +21,7 @@ struct CoverageTask {
   std::string folder;           ///< of the data set, for messages
   std::size_t states = 200;     ///< of each bin, whose best inputs are looked for, at most
   std::size_t others = 20'000;  ///< likewise, among which
-  int threads = 1;
+  int threads = usual_threads();
   long_work::ProgressDisplay display = long_work::ProgressDisplay::shown;
 };
 

@@ -14,7 +14,7 @@ namespace saca::danger_study {
 
 /// A car, and where what is known of its danger is kept.
 struct DangerSources {
-  reach_study::NamedCar car;
+  prepare::NamedCar car;
   std::filesystem::path weights;  ///< safetensors file of learnt danger; may be missing
   reach_study::TableStore tables;
 };

@@ -25,7 +25,7 @@ enum class TableUse { none, solved };
 struct DataSetTask {
   std::filesystem::path folder;  ///< of the parts
   std::string car_as_asked_for;  ///< its name or its file, as its reader is to be told
-  reach_study::NamedCar car;
+  prepare::NamedCar car;
   std::int64_t transitions = 0;  ///< at least so many
   std::uint64_t seed = 1;
   int drives_per_part = 500;

@@ -44,7 +44,7 @@ Result<Solution> solved_now(const danger::DangerCase& wanted, long_work::Progres
 }  // namespace
 
 Result<std::vector<danger::DangerCase>> tables_for(
-    const NamedCar& car, double grip, const std::vector<danger::ObstacleKind>& bodies) {
+    const prepare::NamedCar& car, double grip, const std::vector<danger::ObstacleKind>& bodies) {
   auto cases = danger::danger_cases(danger::avoidance_of(car.car, table_grip),
                                     manoeuvre::footprint(car.car), grip, bodies);
   if (!cases.has_value()) {

@@ -8,7 +8,7 @@
 
 #include "saca/base/core/result.h"
 #include "saca/lab/long_work/progress.h"
-#include "saca/onboard/manoeuvre/car.h"
+#include "saca/lab/prepare/car_file.h"
 #include "saca/thinking/danger/danger.h"
 #include "saca/thinking/danger/danger_cases.h"
 #include "saca/thinking/danger/value_file.h"
@@ -18,11 +18,6 @@ namespace saca::reach_study {
 
 /// On which they are solved: dry. All other grips follow by scaling.
 constexpr double table_grip = 0.9;
-
-struct NamedCar {
-  std::string name;
-  manoeuvre::Car car;
-};
 
 /// Where a car's tables are kept, and who hears of what happens there.
 struct TableStore {
@@ -35,7 +30,7 @@ struct TableStore {
 /// The tables that these bodies need on this grip or more.
 /// @return  an error naming the car where it is beyond what a table may hold
 [[nodiscard]] Result<std::vector<danger::DangerCase>> tables_for(
-    const NamedCar& car, double grip, const std::vector<danger::ObstacleKind>& bodies);
+    const prepare::NamedCar& car, double grip, const std::vector<danger::ObstacleKind>& bodies);
 
 struct ReadyTable {
   danger::Solution table;

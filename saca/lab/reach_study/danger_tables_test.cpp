@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr world::Footprint body{.length = 4.5, .width = 1.8};
 
-NamedCar usual_car() {
+prepare::NamedCar usual_car() {
   return {"compact_rwd_ev", prepare::default_car()};
 }
 
@@ -49,7 +49,7 @@ TEST_F(DangerTables, AreThoseOfTheBodies) {
   ASSERT_TRUE(cases.has_value());
   ASSERT_EQ(cases.value().size(), 2U);
   EXPECT_EQ(cases.value()[1].name, "car_5mps");
-  NamedCar spinning = usual_car();
+  prepare::NamedCar spinning = usual_car();
   spinning.name = "toy";
   spinning.car.cg_to_front_axle = 0.1;
   spinning.car.cg_to_rear_axle = 0.1;

@@ -7,13 +7,14 @@
 
 namespace saca::reach_study {
 
-Result<std::vector<danger::DangerCase>> tables_for(const NamedCar& car,
+Result<std::vector<danger::DangerCase>> tables_for(const prepare::NamedCar& car,
                                                    const scenario::Scenario& scenario) {
   return tables_for(car, scenario::believed_grip(scenario),
                     obstacles_of(scenario, manoeuvre::footprint(car.car)));
 }
 
-std::optional<Error> NeededTables::add(const NamedCar& car, const scenario::Scenario& scenario) {
+std::optional<Error> NeededTables::add(const prepare::NamedCar& car,
+                                       const scenario::Scenario& scenario) {
   const auto needed = tables_for(car, scenario);
   if (!needed.has_value()) {
     return needed.error();

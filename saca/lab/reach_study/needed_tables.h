@@ -15,13 +15,14 @@ namespace saca::reach_study {
 /// The tables that the scenario's actors need beside this car.
 /// @return  an error naming the car where it is beyond what a table may hold
 [[nodiscard]] Result<std::vector<danger::DangerCase>> tables_for(
-    const NamedCar& car, const scenario::Scenario& scenario);
+    const prepare::NamedCar& car, const scenario::Scenario& scenario);
 
 /// The tables that several scenarios need, each once for each car.
 class NeededTables {
  public:
   /// @return  likewise
-  [[nodiscard]] std::optional<Error> add(const NamedCar& car, const scenario::Scenario& scenario);
+  [[nodiscard]] std::optional<Error> add(const prepare::NamedCar& car,
+                                         const scenario::Scenario& scenario);
 
   /// By their names.
   using Tables = std::map<std::string, danger::DangerCase>;

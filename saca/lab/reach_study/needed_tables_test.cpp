@@ -23,7 +23,7 @@ scenario::Scenario behind_a_car(double speed) {
   return scenario;
 }
 
-NamedCar car(const std::string& name) {
+prepare::NamedCar car(const std::string& name) {
   return {name, prepare::default_car()};
 }
 
@@ -47,7 +47,7 @@ TEST(NeededTables, ReachFartherWhereTheRoadIsBelievedSlippery) {
 }
 
 TEST(NeededTables, NameACarThatNoTableHolds) {
-  NamedCar toy = car("toy");
+  prepare::NamedCar toy = car("toy");
   toy.car.cg_to_front_axle = 0.1;
   toy.car.cg_to_rear_axle = 0.1;
   EXPECT_THAT(NeededTables().add(toy, behind_a_car(1.0)).value().message,

@@ -4,6 +4,7 @@
 
 #include "saca/lab/encounter/learnt_case.h"
 #include "saca/lab/encounter/review.h"
+#include "saca/lab/long_work/interrupt.h"
 #include "saca/thinking/arbitration/event.h"
 
 namespace saca::runs {
@@ -29,6 +30,12 @@ std::optional<Error> look_back(const encounter::Setup& setup, encounter::Record&
     }
   }
   return std::nullopt;
+}
+
+std::optional<Error> look_back_until_interrupted(const encounter::Setup& setup,
+                                                 encounter::Record& record, Story& story) {
+  const long_work::InterruptStop interrupt;
+  return look_back(setup, record, story, interrupt.token());
 }
 
 }  // namespace saca::runs

@@ -18,4 +18,9 @@ namespace saca::runs {
                                              encounter::Record& record, Story& story,
                                              const std::stop_token& stop = {});
 
+/// Likewise until an interrupt that is watched for.
+[[nodiscard]] std::optional<Error> look_back_until_interrupted(const encounter::Setup& setup,
+                                                               encounter::Record& record,
+                                                               Story& story);
+
 }  // namespace saca::runs

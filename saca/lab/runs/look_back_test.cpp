@@ -53,7 +53,7 @@ TEST_F(LookingBack, OfAModelThatFailsTellsWhy) {
 
 TEST_F(LookingBack, WithoutAModelIsNothing) {
   encounter::Record record = encounter::run(walker_.setup, quiet_).value();
-  EXPECT_EQ(look_back(walker_.setup, record, story_), std::nullopt);
+  EXPECT_EQ(look_back_until_interrupted(walker_.setup, record, story_), std::nullopt);
   EXPECT_FALSE(record.review.has_value());
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "saca/base/core/parallel.h"
+#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/long_work/interrupt.h"
 
 namespace saca::vehicle_study {
@@ -26,6 +27,30 @@ Result<SeededFamily> seeded(families::Family family, const std::string& name,
     return seed.error();
   }
   return SeededFamily{std::move(family), asked.value_or(seed.value())};
+}
+
+Result<std::vector<SeededFamily>> families_to_check(const installation::Installation& here,
+                                                    const std::optional<std::uint64_t>& asked) {
+  const auto splits = installation::read_splits(here);
+  if (!splits.has_value()) {
+    return splits.error();
+  }
+  if (const auto problem = why_not_seed(splits.value(), asked)) {
+    return *problem;
+  }
+  std::vector<SeededFamily> families;
+  for (const char* const name : atlas_check_families) {
+    auto family = installation::read_family(here, name);
+    if (!family.has_value()) {
+      return family.error();
+    }
+    auto one = seeded(std::move(family).value(), name, splits.value(), asked);
+    if (!one.has_value()) {
+      return one.error();
+    }
+    families.push_back(std::move(one).value());
+  }
+  return families;
 }
 
 std::optional<eval::AtlasFigures> check_atlas(const AtlasCheck& check, const atlas::Atlas& atlas,

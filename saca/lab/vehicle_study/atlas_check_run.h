@@ -10,6 +10,7 @@
 #include "saca/lab/eval/atlas_check.h"
 #include "saca/lab/families/family.h"
 #include "saca/lab/families/splits.h"
+#include "saca/lab/installation/installation.h"
 
 namespace saca::vehicle_study {
 
@@ -34,6 +35,11 @@ struct SeededFamily {
 [[nodiscard]] Result<SeededFamily> seeded(families::Family family, const std::string& name,
                                           const families::Splits& splits,
                                           const std::optional<std::uint64_t>& asked);
+
+/// All of them, read, with their seeds.
+/// @return  likewise, and what cannot be read
+[[nodiscard]] Result<std::vector<SeededFamily>> families_to_check(
+    const installation::Installation& here, const std::optional<std::uint64_t>& asked);
 
 /// The encounters that an atlas is checked over.
 struct AtlasCheck {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "saca/lab/installation/here_for_test.h"
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
 
@@ -36,6 +37,17 @@ TEST_F(AtlasCheckRun, AFamilyTakesTheSeedAskedForElseCalibrations) {
             splits_.seeds[static_cast<std::size_t>(families::Split::calibration)]);
   EXPECT_FALSE(seeded(family("merge"), "merge", splits_, std::nullopt).has_value())
       << "it is kept for the test split";
+}
+
+TEST_F(AtlasCheckRun, AllFamiliesAreReadWithTheirSeeds) {
+  const auto families = families_to_check(installation::here_for_test(), 5);
+  ASSERT_TRUE(families.has_value()) << families.error().message;
+  ASSERT_EQ(families.value().size(), atlas_check_families.size());
+  EXPECT_EQ(families.value().front().family.name, atlas_check_families.front());
+  EXPECT_EQ(families.value().front().seed, 5U);
+  EXPECT_FALSE(families_to_check(installation::here_for_test(),
+                                 splits_.seeds[static_cast<std::size_t>(families::Split::test)])
+                   .has_value());
 }
 
 TEST_F(AtlasCheckRun, NoFamilyOfTheTestSplitIsAmongThem) {

@@ -22,6 +22,23 @@ Result<BaseCar> read_base(const fs::path& file) {
   return BaseCar{file.string(), std::move(text).value(), car.value()};
 }
 
+Result<std::vector<tune::Log>> read_logs(const std::vector<std::string>& files,
+                                         const vehicle::Vehicle& car) {
+  std::vector<tune::Log> logs;
+  for (const std::string& file : files) {
+    const auto csv = read_file(file);
+    if (!csv.has_value()) {
+      return csv.error();
+    }
+    auto log = tune::read_log(csv.value(), file, car);
+    if (!log.has_value()) {
+      return log.error();
+    }
+    logs.push_back(std::move(log).value());
+  }
+  return logs;
+}
+
 Result<FittedCar> fit_car(const BaseCar& base, double grip, const std::vector<tune::Log>& logs) {
   std::string names;
   for (const tune::Log& log : logs) {

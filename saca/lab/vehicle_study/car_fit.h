@@ -19,6 +19,11 @@ struct BaseCar {
 /// @return  Error::Code::unreadable, malformed, naming the file
 [[nodiscard]] Result<BaseCar> read_base(const std::filesystem::path& file);
 
+/// The logs of tests of a car, in this order.
+/// @return  Error::Code::unreadable, malformed, naming the file and the line
+[[nodiscard]] Result<std::vector<tune::Log>> read_logs(const std::vector<std::string>& files,
+                                                       const vehicle::Vehicle& car);
+
 /// What a fit found, and the text of the fitted car's file.
 struct FittedCar {
   tune::VehicleFit fit;

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "saca/base/core/file.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/lab/tune/fit_drive.h"
 
@@ -32,6 +34,19 @@ TEST(CarFit, TheFileIsReadByTheFittedCarAndNamesTheLogsAlone) {
                           [](const auto& one) { return one.determined; }));
   EXPECT_THAT(fitted.file, HasSubstr("fitted to one.csv, two.csv:"));
   EXPECT_THAT(fitted.file, testing::Not(HasSubstr("far/away")));
+}
+
+TEST(CarFit, LogsAreReadInTheirOrder) {
+  const vehicle::Vehicle car = prepare::default_vehicle();
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "car_fit_log.csv";
+  const tune::Log driven = tune::drive_test(car, tune::TestDrive{});
+  ASSERT_EQ(write_file(file, tune::write_log(driven)), std::nullopt);
+  const auto logs = read_logs({file.string(), file.string()}, car);
+  ASSERT_TRUE(logs.has_value()) << logs.error().message;
+  ASSERT_EQ(logs.value().size(), 2U);
+  EXPECT_EQ(logs.value()[1].time, tune::read_log(tune::write_log(driven), "", car).value().time);
+  EXPECT_EQ(read_logs({file.string(), "no_such.csv"}, car).error().code, Error::Code::unreadable);
+  std::filesystem::remove(file);
 }
 
 TEST(CarFit, ABaseThatCannotBeReadIsNamed) {

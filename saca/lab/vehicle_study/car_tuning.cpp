@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <vector>
 
 #include "saca/base/core/clock.h"
@@ -115,6 +116,25 @@ Result<std::optional<LawCosts>> tune_laws(const TuningWork& work, Car& car) {
     return std::optional<LawCosts>();
   }
   return std::optional(LawCosts{*swerve.value(), *drift.value()});
+}
+
+Result<std::optional<LawCosts>> tune_car(const TuningWork& work, int draws, Car& car) {
+  auto costs = tune_laws(work, car);
+  if (!costs.has_value() || !costs.value()) {
+    return costs;
+  }
+  if (work.display == long_work::ProgressDisplay::shown) {
+    std::fputs(
+        fmt::format("domain of the T-drift: {} draws at each speed and grip\n", draws).c_str(),
+        stderr);
+  }
+  const auto domain = tune::find_domain(car, draws, work.seed + 1, work.threads,
+                                        [] { return !long_work::interrupted(); });
+  if (!domain) {
+    return std::optional<LawCosts>();
+  }
+  car.tuning.domain = *domain;
+  return costs;
 }
 
 void remove_journals(const TuningWork& work) {

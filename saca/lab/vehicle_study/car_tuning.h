@@ -34,6 +34,12 @@ struct LawCosts {
 [[nodiscard]] Result<std::optional<LawCosts>> tune_laws(const TuningWork& work,
                                                         manoeuvre::Car& car);
 
+/// tune_laws, and then the domain of the T-drift with them: where it ends as it should.
+/// @param draws  of what the controllers do not know, at each speed and grip, > 0
+/// @return       likewise
+[[nodiscard]] Result<std::optional<LawCosts>> tune_car(const TuningWork& work, int draws,
+                                                       manoeuvre::Car& car);
+
 /// Once the tuning is written, its journals are of no use any more.
 void remove_journals(const TuningWork& work);
 

@@ -39,6 +39,19 @@ TEST(CarTuning, CostsAreThoseOfTheCarThatComesOutAndJournalsStandUntilTheyAreRem
   EXPECT_FALSE(fs::exists(swerve) || fs::exists(drift));
 }
 
+TEST(CarTuning, TheDomainIsThatOfTheTunedLaws) {
+  const TuningWork task = work("a program");
+  manoeuvre::Car car = prepare::default_car();
+  ASSERT_TRUE(tune_car(task, 2, car).value().has_value());
+  manoeuvre::Car laws = prepare::default_car();
+  ASSERT_TRUE(tune_laws(task, laws).value().has_value());
+  const auto domain = tune::find_domain(laws, 2, task.seed + 1, 1, [] { return true; });
+  ASSERT_TRUE(domain.has_value());
+  EXPECT_EQ(car.tuning.domain.slowest, domain->slowest);
+  EXPECT_EQ(car.tuning.domain.fastest, domain->fastest);
+  remove_journals(task);
+}
+
 TEST(CarTuning, BeginsWithTheTuningThatIsNamed) {
   const manoeuvre::Car car = read_start(car_file, "data/vehicles/delivery_van.tuning.toml").value();
   EXPECT_EQ(car.mass, prepare::default_car().mass);

@@ -8,6 +8,7 @@
 
 #include "saca/base/core/percentile.h"
 #include "saca/base/world/scene.h"
+#include "saca/lab/installation/inputs.h"
 #include "saca/lab/tune/draws.h"
 #include "saca/onboard/manoeuvre/drive.h"
 
@@ -93,6 +94,26 @@ std::string text_of(const DriftCell& cell) {
                     "{:6.2f} {:6.2f} {:6.2f}\n",
                     100.0 * across.share, 100.0 * across.low, 100.0 * across.high, forward.p05,
                     forward.p50, forward.p95, sideways.p05, sideways.p50, sideways.p95);
+}
+
+std::optional<Error> add_drift_table(const installation::Installation& here,
+                                     const std::vector<std::string>& cars, const DriftDraws& draws,
+                                     nlohmann::json& figures,
+                                     const std::function<void(const std::string& lines)>& tell) {
+  tell(drift_table_head(draws));
+  for (const std::string& name : cars) {
+    const auto car = installation::read_named_car(here, name);
+    if (!car.has_value()) {
+      return car.error();
+    }
+    table_drifts(car.value().name, car.value().car, draws, [&](const DriftCell& cell) {
+      add_to(figures, cell);
+      tell(text_of(cell));
+    });
+  }
+  figures["t_drift.n"] = draws.count;
+  figures["t_drift.seed"] = draws.seed;
+  return std::nullopt;
 }
 
 }  // namespace saca::vehicle_study

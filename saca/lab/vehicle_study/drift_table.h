@@ -5,8 +5,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "saca/base/core/proportion.h"
+#include "saca/lab/installation/installation.h"
 #include "saca/onboard/manoeuvre/car.h"
 
 namespace saca::vehicle_study {
@@ -51,5 +53,14 @@ void add_to(nlohmann::json& figures, const DriftCell& cell);
 /// For people: the lines above the table, and the line of a cell.
 [[nodiscard]] std::string drift_table_head(const DriftDraws& draws);
 [[nodiscard]] std::string text_of(const DriftCell& cell);
+
+/// The table of several cars, told line by line as it grows, and added to the figures.
+/// @param cars  files, or names of shipped ones
+/// @param tell  takes lines
+/// @return      a car that cannot be read
+[[nodiscard]] std::optional<Error> add_drift_table(
+    const installation::Installation& here, const std::vector<std::string>& cars,
+    const DriftDraws& draws, nlohmann::json& figures,
+    const std::function<void(const std::string& lines)>& tell);
 
 }  // namespace saca::vehicle_study

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "saca/lab/installation/here_for_test.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/manoeuvre/drive.h"
 
@@ -59,6 +60,20 @@ TEST(DriftTable, ALineForPeople) {
   EXPECT_EQ(text_of({"a_car", 25.0, 1.0, std::nullopt}),
             "a_car               25   1.0   refused\n");
   EXPECT_THAT(drift_table_head({.count = 20}), testing::StartsWith("\nT-drift, 20 draws each; "));
+}
+
+TEST(DriftTable, OfSeveralCarsIsToldAsItGrows) {
+  json figures;
+  std::string told;
+  const auto tell = [&](const std::string& lines) { told += lines; };
+  const auto here = installation::here_for_test();
+  ASSERT_EQ(add_drift_table(here, {"compact_rwd_ev"}, {.count = 1}, figures, tell), std::nullopt);
+  EXPECT_EQ(told.find(drift_table_head({.count = 1})), 0U);
+  EXPECT_EQ(figures["t_drift.n"], 1);
+  EXPECT_GT(figures.size(), 36U);
+  const auto problem = add_drift_table(here, {"none"}, {.count = 1}, figures, tell);
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_THAT(problem->message, testing::HasSubstr("none: no car"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "saca/base/core/clock.h"
 #include "saca/base/core/file.h"
+#include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/long_work/output_file.h"
 #include "saca/lab/prepare/atlas_build.h"
@@ -77,6 +78,21 @@ KeptAtlas read_or_build_atlas(const manoeuvre::Car& car, const fs::path& file,
   }
   const auto one = built(car, file, build, {}, [] { return true; });
   return *one.value();  // without a journal there is no error
+}
+
+std::filesystem::path atlas_place(const installation::Installation& here, const std::string& car) {
+  return installation::kept_place(here, std::filesystem::path("atlases") / (car + ".atlas"));
+}
+
+atlas::Atlas usual_atlas(const installation::Installation& here,
+                         const installation::Inputs& inputs) {
+  const auto [atlas, not_kept] =
+      read_or_build_atlas(inputs.car, atlas_place(here, inputs.car_name),
+                          {.threads = usual_threads(), .display = here.display});
+  if (not_kept) {
+    here.notice(not_kept->message + "; the atlas is used, and built again next time");
+  }
+  return atlas;
 }
 
 }  // namespace saca::vehicle_study

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "saca/base/core/result.h"
+#include "saca/lab/installation/inputs.h"
 #include "saca/lab/long_work/progress.h"
 #include "saca/onboard/atlas/atlas.h"
 #include "saca/onboard/manoeuvre/car.h"
@@ -34,5 +36,14 @@ struct KeptAtlas {
 [[nodiscard]] KeptAtlas read_or_build_atlas(const manoeuvre::Car& car,
                                             const std::filesystem::path& file,
                                             const AtlasBuild& build);
+
+/// Where the atlas of a car is looked for, and built (installation::kept_place).
+/// @param car  its name
+[[nodiscard]] std::filesystem::path atlas_place(const installation::Installation& here,
+                                                const std::string& car);
+
+/// The one that lies there (read_or_build_atlas); that it could not be kept is noticed.
+[[nodiscard]] atlas::Atlas usual_atlas(const installation::Installation& here,
+                                       const installation::Inputs& inputs);
 
 }  // namespace saca::vehicle_study

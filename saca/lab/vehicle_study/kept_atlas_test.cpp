@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "saca/base/core/file.h"
+#include "saca/lab/installation/here_for_test.h"
 #include "saca/onboard/atlas/atlas_file.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
 
@@ -56,6 +57,27 @@ TEST_F(KeptAtlasFile, OneThatCannotBeKeptIsUsedAllTheSame) {
   EXPECT_EQ(atlas.atlas.nodes().size(), atlas::small_nodes().size());
   ASSERT_TRUE(atlas.not_kept.has_value());
   EXPECT_EQ(atlas.not_kept->code, Error::Code::unwritable);
+}
+
+TEST(UsualAtlas, IsBuiltOnceAndKeptInTheCache) {
+  installation::Installation here = installation::here_for_test();
+  std::vector<std::string> noticed;
+  here.notice = [&](const std::string& what) { noticed.push_back(what); };
+  fs::remove_all(here.cache);
+  const auto inputs = installation::read_inputs(here, "compact_rwd_ev").value();
+  const fs::path place = atlas_place(here, "compact_rwd_ev");
+  EXPECT_EQ(place, here.cache / "atlases/compact_rwd_ev.atlas");
+  const atlas::Atlas built = usual_atlas(here, inputs);
+  EXPECT_TRUE(fs::exists(place));
+  const auto written = fs::last_write_time(place);
+  EXPECT_EQ(usual_atlas(here, inputs).nodes().size(), built.nodes().size());
+  EXPECT_EQ(fs::last_write_time(place), written);
+  EXPECT_THAT(noticed, testing::IsEmpty());
+
+  // Where it cannot be kept, it is used all the same, and that is said.
+  here.cache = "/proc/nowhere";
+  EXPECT_EQ(usual_atlas(here, inputs).nodes().size(), built.nodes().size());
+  EXPECT_THAT(noticed, testing::ElementsAre(testing::HasSubstr("built again next time")));
 }
 
 }  // namespace

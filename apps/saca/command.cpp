@@ -1,0 +1,111 @@
+#include "apps/saca/command.h"
+
+#include <cstdlib>
+
+#include "saca/lab/long_work/output_file.h"
+
+namespace saca::app {
+
+void complain(const std::string& message) {
+  constexpr std::size_t longest_complaint = 8'000;  // characters; a path has up to 4096
+  std::fputs(fmt::format("saca: {}\n", one_line(message, longest_complaint)).c_str(),
+             stderr);  // which may be closed
+}
+
+void complain_of(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) {
+    complain(message);
+  }
+}
+
+void refuse(ExitCode code, const std::string& message) {
+  complain(message);
+  throw Exit{code};
+}
+
+void refuse(const Error& problem, ExitCode too_late) {
+  refuse(problem.code == Error::Code::unwritable ? cannot_write
+         : problem.code == Error::Code::too_late ? too_late
+                                                 : bad_input,
+         problem.message);
+}
+
+void need(const std::optional<Error>& problem) {
+  if (problem) {
+    refuse(*problem);
+  }
+}
+
+void need_writable(std::initializer_list<fs::path> files) {
+  need(long_work::why_outputs_unwritable(files));
+}
+
+void write(const fs::path& file, const std::string& text) {
+  need(long_work::write_output(file, text));
+}
+
+void tell_meanwhile(bool as_json, const std::string& text) {
+  if (!as_json) {
+    app::print("{}", text);
+    std::fflush(stdout);
+  }
+}
+
+nlohmann::json with_meta(nlohmann::json figures, const std::string& command) {
+  figures["meta.command"] = "saca " + command;
+  figures["meta.version"] = SACA_VERSION;
+  return figures;
+}
+
+Settings& settings() {
+  static Settings all;
+  return all;
+}
+
+namespace {
+
+installation::Installation find_here() {
+  std::error_code problem;
+  const fs::path program = fs::read_symlink("/proc/self/exe", problem);
+  if (problem) {
+    refuse(bad_input, "/proc/self/exe: " + problem.message());
+  }
+  auto found = need(installation::find_installation(program));
+  found.cache = settings().cache.empty() ? installation::usual_cache() : fs::path(settings().cache);
+  found.version = SACA_VERSION;
+  found.commit = built_from();
+  if (const char* const key = std::getenv("SACA_LLM_KEY")) {
+    found.model_key = key;
+  }
+  found.display =
+      settings().quiet ? long_work::ProgressDisplay::silent : long_work::ProgressDisplay::shown;
+  found.notice = complain;
+  return found;
+}
+
+}  // namespace
+
+const installation::Installation& here() {
+  static const installation::Installation found = find_here();
+  return found;
+}
+
+installation::Inputs read_inputs(const std::string& car) {
+  return need(installation::read_inputs(here(), car));
+}
+
+installation::ScenarioInputs read_scenario_inputs(const std::string& scenario) {
+  return need(installation::read_scenario_inputs(here(), scenario));
+}
+
+std::shared_ptr<const vehicle_study::PlanesOfCar> open_planes(const std::string& car) {
+  return need(vehicle_study::open_planes(here(), car));
+}
+
+CLI::App& add_group(CLI::App& parent, const std::string& name, const std::string& about) {
+  CLI::App* const group = parent.add_subcommand(name, about);
+  group->require_subcommand(1);
+  return *group;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/lab/installation/installation.h"
+#include "saca/lab/paper_comparison/reply_clock.h"
+#include "saca/lab/paper_comparison/table_figures.h"
+#include "saca/lab/paper_comparison/table_request.h"
+
+namespace saca::paper_comparison {
+
+/// One table that was run.
+struct TableRun {
+  TableFigures figures;
+  nlohmann::json made;      ///< "meta...." of the run
+  bool faults = false;      ///< something could not be played, or a method failed
+  std::string first_fault;  ///< where `figures` is without `few`: why the first was not played
+};
+
+/// Runs a table with the car of the paper's scenes, or what is left of it, and leaves its rows and
+/// their page in the request's folder.
+/// @param methods  names of eval::methods(), in the order of tables
+/// @return         nullopt: interrupted
+[[nodiscard]] Result<std::optional<TableRun>> run_table(const installation::Installation& here,
+                                                        const eval::PaperTable& table,
+                                                        const TableRequest& request,
+                                                        const std::vector<std::string>& methods);
+
+/// Table IV: timed_models with the program's own models and car.
+[[nodiscard]] Result<std::vector<TimedModel>> time_replies(const installation::Installation& here,
+                                                           const TableRequest& request);
+
+}  // namespace saca::paper_comparison
