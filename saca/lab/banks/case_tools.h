@@ -5,7 +5,7 @@
 
 #include "saca/thinking/intent/model.h"
 #include "saca/thinking/memory/case.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::banks {
 

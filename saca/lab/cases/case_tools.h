@@ -3,7 +3,7 @@
 #include <string>
 
 #include "saca/thinking/intent/model.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::cases {
 

@@ -12,7 +12,7 @@
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/memory/case.h"
 #include "saca/thinking/memory/experience.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::cases {
 

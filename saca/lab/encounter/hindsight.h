@@ -10,7 +10,7 @@
 #include "saca/onboard/manoeuvre/car.h"
 #include "saca/onboard/manoeuvre/parameter_perturbation.h"
 #include "saca/onboard/manoeuvre/plan.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::encounter {
 

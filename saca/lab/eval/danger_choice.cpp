@@ -9,7 +9,7 @@
 #include "saca/onboard/manoeuvre/drive.h"
 #include "saca/onboard/reflex/verdict.h"
 #include "saca/thinking/arbitration/forecaster.h"
-#include "saca/thinking/preview/policy_danger.h"
+#include "saca/thinking/preview/forecast_danger.h"
 
 namespace saca::eval {
 

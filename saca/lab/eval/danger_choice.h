@@ -7,7 +7,7 @@
 #include "saca/lab/learned_danger/network.h"
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/preview/expected_harm.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 /// Choosing by V_h, for the ladder: what it is worth where something must be chosen.
 namespace saca::eval {

@@ -13,7 +13,7 @@
 #include "saca/onboard/forecast/expected.h"
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/memory/case.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::eval {
 

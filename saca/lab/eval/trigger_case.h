@@ -7,7 +7,7 @@
 #include "saca/base/core/result.h"
 #include "saca/lab/encounter/closed_loop.h"
 #include "saca/thinking/memory/case.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::eval {
 

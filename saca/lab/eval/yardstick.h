@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "saca/lab/encounter/closed_loop.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::eval {
 

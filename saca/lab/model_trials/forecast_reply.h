@@ -10,7 +10,7 @@
 #include "saca/thinking/arbitration/check.h"
 #include "saca/thinking/arbitration/event.h"
 #include "saca/thinking/language_model/language_model.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::model_trials {
 

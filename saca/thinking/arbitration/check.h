@@ -4,7 +4,7 @@
 
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/preview/expected_harm.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 #include "saca/thinking/preview/situation.h"
 
 namespace saca::arbitration {

@@ -11,7 +11,7 @@
 #include "saca/onboard/reflex/verdict.h"
 #include "saca/thinking/intent/observer.h"
 #include "saca/thinking/preview/expected_harm.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::arbitration {
 

@@ -14,7 +14,7 @@
 #include "saca/thinking/language_model/expert.h"
 #include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/truth.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::language_model {
 namespace {

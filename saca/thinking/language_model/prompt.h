@@ -7,7 +7,7 @@
 #include "saca/onboard/collision/harm.h"
 #include "saca/thinking/memory/case.h"
 #include "saca/thinking/memory/experience.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 #include "saca/thinking/preview/situation.h"
 
 namespace saca::language_model {

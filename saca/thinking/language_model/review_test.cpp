@@ -9,7 +9,7 @@
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
 #include "saca/thinking/language_model/example_situation.h"
 #include "saca/thinking/language_model/gbnf_for_test.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::language_model::review_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/intent/motion.h"
 #include "saca/thinking/intent/observer.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::preview {
 

@@ -5,7 +5,7 @@
 #include "saca/lab/prepare/harm_file.h"
 #include "saca/onboard/atlas/atlas_for_test.h"
 #include "saca/onboard/collision/harm.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 namespace saca::preview {
 

@@ -62,7 +62,7 @@ struct PolicyFacts {
 
 using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;  ///< by PolicyId
 
-/// Q_h of each policy (eq. 2; policy_danger.h) [m], by PolicyId; less than 0: minus the room that
+/// Q_h of each policy (eq. 2; forecast_danger.h) [m], by PolicyId; less than 0: minus the room that
 /// is left. nullopt: it cannot be driven, nobody is ahead, or V_h is not known.
 using PolicyDangers = std::array<std::optional<double>, manoeuvre::num_policies>;
 

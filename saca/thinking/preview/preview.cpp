@@ -14,8 +14,8 @@
 #include "saca/thinking/intent/joint.h"
 #include "saca/thinking/intent/motion.h"
 #include "saca/thinking/preview/caution.h"
+#include "saca/thinking/preview/forecast_danger.h"
 #include "saca/thinking/preview/moved_along.h"
-#include "saca/thinking/preview/policy_danger.h"
 
 namespace saca::preview {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "saca/onboard/reflex/trigger.h"
 #include "saca/thinking/intent/observer.h"
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 #include "saca/thinking/preview/situation.h"
 
 namespace saca::preview {

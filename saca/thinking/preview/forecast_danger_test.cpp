@@ -1,4 +1,4 @@
-#include "saca/thinking/preview/policy_danger.h"
+#include "saca/thinking/preview/forecast_danger.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "saca/thinking/preview/preview.h"
 #include "tests/support/scenes.h"
 
-namespace saca::preview::policy_danger_test {
+namespace saca::preview::forecast_danger_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -152,4 +152,4 @@ TEST(PolicyDangers, AnotherNumberOfTracksIsRefused) {
 }
 
 }  // namespace
-}  // namespace saca::preview::policy_danger_test
+}  // namespace saca::preview::forecast_danger_test

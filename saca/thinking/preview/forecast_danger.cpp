@@ -1,4 +1,4 @@
-#include "saca/thinking/preview/policy_danger.h"
+#include "saca/thinking/preview/forecast_danger.h"
 
 #include <algorithm>
 #include <cstddef>

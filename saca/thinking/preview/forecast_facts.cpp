@@ -1,4 +1,4 @@
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 #include "saca/thinking/rollout/collision_sequence.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 #include "saca/onboard/manoeuvre/car.h"
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/danger/risk.h"
+#include "saca/thinking/preview/forecast_facts.h"
 #include "saca/thinking/preview/plan_facts.h"
-#include "saca/thinking/preview/policy_facts.h"
 
 namespace saca::preview {
 

@@ -1,4 +1,4 @@
-#include "saca/thinking/preview/policy_facts.h"
+#include "saca/thinking/preview/forecast_facts.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "saca/thinking/preview/forecast_for_test.h"
 #include "tests/support/scenes.h"
 
-namespace saca::preview::policy_facts_test {
+namespace saca::preview::forecast_facts_test {
 namespace {
 
 using atlas::small_atlas;
@@ -177,4 +177,4 @@ TEST(BestByForecast, DoesNothingWhereNothingThreatens) {
 }
 
 }  // namespace
-}  // namespace saca::preview::policy_facts_test
+}  // namespace saca::preview::forecast_facts_test
