@@ -71,16 +71,15 @@ struct CheckSetsOptions {
 
 void check_sets(const CheckSetsOptions& options) {
   nlohmann::json sets = nlohmann::json::array();
-  std::string text;
   const cases::ChatLimits limits;
   for (const std::string& file : options.files) {
     const std::string chats = need(read_file(file, limits.most_bytes + 1));
     const auto checked = need(cases::check_chat_set(chats, file, limits));
     sets.push_back(cases::chat_set_json(file, checked));
-    text += cases::chat_set_text(file, checked);
+    tell_meanwhile(options.as_json, cases::chat_set_text(file, checked));
   }
   tell(options.as_json, nlohmann::json{{"schema", "saca.chat_sets/1"}, {"sets", std::move(sets)}},
-       text);
+       "");
 }
 
 void add_cases_check(CLI::App& cases) {
@@ -147,7 +146,6 @@ ExitCode export_cases(const ExportCasesOptions& options) {
   need_writable({fs::path(options.output) / "train.jsonl"});
   long_work::watch_for_interrupt();
   const auto [examples, tallies, problems] = need_whole(cases::export_sets(here(), options));
-  complain_of(problems);
   tell(
       options.as_json,
       with_meta(cases::sets_json(examples.source, tallies, problems.size()), command_text(options)),

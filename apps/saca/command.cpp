@@ -62,6 +62,10 @@ Settings& settings() {
   return all;
 }
 
+long_work::ProgressDisplay progress_display() {
+  return settings().quiet ? long_work::ProgressDisplay::silent : long_work::ProgressDisplay::shown;
+}
+
 namespace {
 
 installation::Installation find_here() {
@@ -77,8 +81,7 @@ installation::Installation find_here() {
   if (const char* const key = std::getenv("SACA_LLM_KEY")) {
     found.model_key = key;
   }
-  found.display =
-      settings().quiet ? long_work::ProgressDisplay::silent : long_work::ProgressDisplay::shown;
+  found.display = progress_display();
   found.notice = complain;
   return found;
 }

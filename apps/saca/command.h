@@ -144,6 +144,9 @@ struct Settings {
 /// This process's; they are set once, while the line is read.
 [[nodiscard]] Settings& settings();
 
+/// What `--quiet` leaves of lines of progress.
+[[nodiscard]] long_work::ProgressDisplay progress_display();
+
 /// This program's own files; where they are not there, the command ends.
 [[nodiscard]] const installation::Installation& here();
 
@@ -169,9 +172,9 @@ struct AddedCommand {
 /// Adds a command that does `run` with its options.
 /// @param run  returns nothing, or the exit code
 template <class Options, class End>
-AddedCommand<Options> add_command(CLI::App& parent, const std::string& name,
-                                  const std::string& about, End (*run)(const Options&),
-                                  std::shared_ptr<Options> options = std::make_shared<Options>()) {
+AddedCommand<Options> add_command(
+    CLI::App& parent, const std::string& name, const std::string& about, End (*run)(const Options&),
+    const std::shared_ptr<Options>& options = std::make_shared<Options>()) {
   CLI::App* const command = parent.add_subcommand(name, about);
   command->callback([options, run] {
     if constexpr (std::is_void_v<End>) {

@@ -34,18 +34,18 @@ void count_cues(const CuesOptions& options) {
   nlohmann::json figures{
       {"meta.command", fmt::format("saca cues --count {} --car {}", options.count, options.car)}};
   figures.update(family_samples::json_of(counts));
-  std::string text = family_samples::text_of(counts);
+  tell_meanwhile(options.as_json, family_samples::text_of(counts));
   constexpr std::uint64_t seed = 1;
   for (const char* const suite : judged_suites) {
     const auto forecasts =
         eval::cue_forecasts(learnt_from, drawn(options, suite, "calibration"), law, seed);
     figures.update(family_samples::json_of(suite, forecasts));
-    text += family_samples::text_of(suite, forecasts);
+    tell_meanwhile(options.as_json, family_samples::text_of(suite, forecasts));
   }
   if (!options.output.empty()) {
     write(options.output, family_samples::counted_law_text(law, counts, counted_suite));
   }
-  tell(options.as_json, figures, text);
+  tell(options.as_json, figures, "");
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ ExitCode eval_forecasts(const EvalForecastOptions& options) {
   const auto study = need(std::move(studied));
   complain_of(forecast_study::problems_of(study));
   const auto figures = forecast_study::figures_of(study, from.seed);
-  const auto document =
-      json_of(figures, {from.name, forecast_study::command_text(from), from.seed, SACA_VERSION});
-  tell(options.as_json, document, text_of(figures, from.name, study.notes));
+  const auto document = json_of(
+      figures, {from.name, "saca " + forecast_study::command_text(from), from.seed, SACA_VERSION});
   if (!from.output.empty()) {
     write(from.output, json_text(document));
   }
+  tell(options.as_json, document, text_of(figures, from.name, study.notes));
   return figures.num_failed > 0 ? some_failed : success;
 }
 

@@ -35,13 +35,13 @@ std::vector<importers::HundredCarOutcome> all_events(const HundredCarOptions& op
   long_work::watch_for_interrupt();
   SteadyClock clock;
   constexpr int percent = 100;
-  long_work::ProgressLine line("import 100car", percent, clock, here().display);
+  long_work::ProgressLine line("import 100car", percent, clock, progress_display());
   auto outcomes = importers::import_hundred_cars(
       options.path, options.request, [&](std::size_t done, std::size_t all) {
         line.show(static_cast<int>(percent * done / all), 0, " percent");
         return !long_work::interrupted();
       });
-  if (long_work::interrupted()) {
+  if (!outcomes.has_value() && long_work::interrupted()) {
     throw Exit{was_interrupted};
   }
   return need(std::move(outcomes));

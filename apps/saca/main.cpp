@@ -30,7 +30,8 @@ void choose_waiting(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 
 void add_all(CLI::App& line) {
   line.set_version_flag("--version",
-                        fmt::format("saca {} (commit {})", SACA_VERSION, built_from()));
+                        "saca " + saca::installation::version_text(
+                                      {.version = SACA_VERSION, .commit = built_from()}));
   line.add_flag("--quiet", settings().quiet,
                 "Neither progress nor story: only errors, and what was asked for");
   line.add_option("--cache", settings().cache,

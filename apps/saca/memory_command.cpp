@@ -234,7 +234,7 @@ struct CalibrateOptions {
 void fit_scales(const CalibrateOptions& options, const banks::CalibrationCases& cases) {
   long_work::watch_for_interrupt();
   SteadyClock clock;
-  long_work::ProgressLine progress("scales", 0, clock, here().display);
+  long_work::ProgressLine progress("scales", 0, clock, progress_display());
   const auto scales = need(banks::calibrate_scales(
       cases, {.scenes = options.fit_scenes, .threads = options.threads}, progress));
   tell(options.as_json, json_of(scales, SACA_VERSION), text_of(scales));
@@ -251,10 +251,11 @@ void calibrate(const CalibrateOptions& options) {
     return;
   }
   const auto recalls = banks::calibrate_recalls(cases, options.seed, options.threads);
+  tell_meanwhile(options.as_json, text_of(recalls));
   if (!options.svg.empty()) {
     write(options.svg, banks::recall_chart(recalls));
   }
-  tell(options.as_json, json_of(recalls, SACA_VERSION), text_of(recalls));
+  tell(options.as_json, json_of(recalls, SACA_VERSION), "");
 }
 
 void add_calibrating(CLI::App& memory) {

@@ -25,9 +25,8 @@ paper_comparison::TableBook made_book(const TableRequest& request,
     }
     const auto run = need_whole(paper_comparison::run_table(here(), table, request, methods));
     if (run.figures.few.empty()) {
-      refuse(some_failed,
-             fmt::format("{}: the paper's number of encounters could not be played: {}",
-                         table.title, run.first_fault));
+      refuse(some_failed, fmt::format("{}: none of the first {} encounters could be played: {}",
+                                      table.title, run.num_few, run.first_fault));
     }
     add_table(book, run.figures, run.made);
     book.faults = book.faults || run.faults;

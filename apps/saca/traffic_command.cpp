@@ -43,7 +43,7 @@ void pack(const PackOptions& options) {
   long_work::watch_for_interrupt();
   SteadyClock clock;
   long_work::ProgressLine line("traffic " + source.name, static_cast<int>(files.size()), clock,
-                               here().display);
+                               progress_display());
   auto packing = source.pack(files, [&](std::size_t done, std::size_t) {
     line.show(static_cast<int>(done), 0, "");
     return !long_work::interrupted();

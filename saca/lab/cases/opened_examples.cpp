@@ -8,6 +8,7 @@
 #include "saca/lab/cases/case_build.h"
 #include "saca/lab/cases/model_replies.h"
 #include "saca/lab/installation/model_sources.h"
+#include "saca/lab/model_access/open_model.h"
 #include "saca/thinking/language_model/prompt.h"
 
 namespace saca::cases {
@@ -59,6 +60,9 @@ Result<std::optional<ExportedSets>> export_sets(const Installation& here,
     return std::optional<ExportedSets>();
   }
   auto [examples, problems] = *std::move(gathered).value();
+  for (const std::string& problem : problems) {
+    here.notice(problem);
+  }
   SetTallies tallies = set_tallies(examples);
   if (auto problem =
           write_sets(folder, examples, set_format_from(request.format).value(),

@@ -37,7 +37,7 @@ struct ExportRequest {
 struct ExportedSets {
   OpenedExamples examples;
   SetTallies tallies;
-  std::vector<std::string> problems;  ///< why cases could not be played
+  std::vector<std::string> problems;  ///< why cases could not be played; noticed already
 };
 /// Works out and writes the sets, with progress on the error stream, from where the journal ends
 /// on.

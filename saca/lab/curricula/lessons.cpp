@@ -48,21 +48,22 @@ Result<Lessons> open_lessons(const Installation& here, const LearnRequest& reque
   Lessons lessons;
   suites::SuiteRequest from = request.from;
   from.count *= request.seeds;
-  auto encounters = suites::open_encounters(here, from, "learn");
-  if (!encounters.has_value()) {
-    return encounters.error();
+  auto opened = suites::open_encounters(here, from, "learn");
+  if (!opened.has_value()) {
+    return opened.error();
   }
-  lessons.encounters = std::move(encounters).value();
-  lessons.count = static_cast<std::uint64_t>(lessons.encounters.count / request.seeds);
+  suites::SuiteEncounters encounters = std::move(opened).value();
+  lessons.count = static_cast<std::uint64_t>(encounters.count / request.seeds);
   if (lessons.count == 0) {
     return Error{Error::Code::out_of_range,
                  fmt::format("{}: want an encounter for each of {} seeds, got {}",
-                             request.from.name, request.seeds, lessons.encounters.count)};
+                             request.from.name, request.seeds, encounters.count)};
   }
-  auto planes = vehicle_study::open_planes(here, std::move(lessons.encounters.inputs));
+  auto planes = vehicle_study::open_planes(here, std::move(encounters.inputs));
   if (!planes.has_value()) {
     return planes.error();
   }
+  lessons.encounters = std::move(encounters);
   lessons.planes = std::move(planes).value();
   Clock& clock = *lessons.planes->setup.clock;
   lessons.made_with = vehicle_study::made_with(*lessons.planes);

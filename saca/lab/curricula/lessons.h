@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +17,7 @@ namespace saca::curricula {
 
 /// What curricula are made of.
 struct Lessons {
-  suites::SuiteEncounters encounters;
+  suites::EncounterSource encounters;
   std::uint64_t count = 0;  ///< encounters of each seed
   std::shared_ptr<const vehicle_study::PlanesOfCar> planes;
   std::vector<memory::MadeWith> made_with;

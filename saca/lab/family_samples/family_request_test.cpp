@@ -10,9 +10,12 @@ namespace {
 
 using testing::HasSubstr;
 
-const installation::Installation here = installation::here_for_test();
+class FamilyRequestTest : public testing::Test {
+ protected:
+  const installation::Installation here = installation::here_for_test();
+};
 
-TEST(FamilyRequest, DrawsAsManyFromTheFirstOn) {
+TEST_F(FamilyRequestTest, DrawsAsManyFromTheFirstOn) {
   const auto all = drawn_family(here, {.name = "crossing", .count = 3});
   ASSERT_TRUE(all.has_value()) << all.error().message;
   ASSERT_EQ(all.value().scenarios.size(), 3U);
@@ -26,7 +29,7 @@ TEST(FamilyRequest, DrawsAsManyFromTheFirstOn) {
             scenario::write_scenario(last.value().scenarios[0]));
 }
 
-TEST(FamilyRequest, SplitsHaveSeedsOfTheirOwnAndTheTestSplitALog) {
+TEST_F(FamilyRequestTest, SplitsHaveSeedsOfTheirOwnAndTheTestSplitALog) {
   const auto tuning = drawn_family(here, {.name = "crossing", .count = 1});
   const auto calibration =
       drawn_family(here, {.name = "crossing", .count = 1, .split = "calibration"});
@@ -35,7 +38,7 @@ TEST(FamilyRequest, SplitsHaveSeedsOfTheirOwnAndTheTestSplitALog) {
               HasSubstr("(--test-log FILE)"));
 }
 
-TEST(FamilyRequest, WhatIsUnknownIsTold) {
+TEST_F(FamilyRequestTest, WhatIsUnknownIsTold) {
   EXPECT_THAT(drawn_family(here, {.name = "crosing"}).error().message, HasSubstr("crossing"));
   EXPECT_THAT(drawn_family(here, {.name = "crossing", .cues = "none"}).error().message,
               HasSubstr("--cues: "));

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <limits>
+
 #include "saca/lab/eval/forecast_fan.h"
 #include "saca/lab/forecast_study/fan_picture.h"
 #include "saca/lab/forecast_study/suite_forecasts.h"
@@ -61,8 +63,8 @@ Result<ForecastStudy> study_traffic(const Installation& here, const SuiteRequest
 }  // namespace
 
 std::string command_text(const SuiteRequest& request) {
-  return fmt::format("saca forecast eval {} --count {} --split {} --car {} --seed {}{}{}",
-                     request.name, request.count, request.split, request.car, request.seed,
+  return fmt::format("forecast eval {} --count {} --split {} --car {} --seed {}{}{}", request.name,
+                     request.count, request.split, request.car, request.seed,
                      request.exact ? " --exact" : "", request.data.empty() ? "" : " --data FOLDER");
 }
 
@@ -71,6 +73,12 @@ Result<ForecastStudy> study_of(const Installation& here, const SuiteRequest& req
 }
 
 Result<std::string> picture_of(const Installation& here, const FanRequest& request) {
+  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+  if (request.encounter >= most) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: want an encounter below {}, got {}", request.from.name, most,
+                             request.encounter)};
+  }
   SuiteRequest from = request.from;
   from.count = static_cast<int>(request.encounter) + 1;
   const auto encounters = suites::open_encounters(here, from, "forecast show");

@@ -9,7 +9,7 @@
 
 namespace saca::forecast_study {
 
-/// What asks for the same figures again.
+/// What asks for the same figures again, without the program's name.
 [[nodiscard]] std::string command_text(const suites::SuiteRequest& request);
 
 /// Plays the encounters that a request names, until an interrupt that is watched for, and holds

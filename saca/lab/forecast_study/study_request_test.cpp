@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "saca/lab/installation/here_for_test.h"
 
 namespace saca::forecast_study::study_request_test {
@@ -20,7 +22,7 @@ TEST(StudyRequest, PlaysTheEncountersOfASuite) {
   EXPECT_EQ(figures.num_failed, 0);
   EXPECT_GT(figures.num_forecasts, 0U);
   EXPECT_EQ(command_text(request),
-            "saca forecast eval crossing --count 1 --split calibration --car compact_rwd_ev "
+            "forecast eval crossing --count 1 --split calibration --car compact_rwd_ev "
             "--seed 1");
 }
 
@@ -40,9 +42,19 @@ TEST(FanRequest, DrawsOneRoadUser) {
 }
 
 TEST(FanRequest, NeedsAnEncounterThatIsThere) {
-  const FanRequest request{.from = {.name = "table_2"}, .encounter = 1'000'000, .who = "car1"};
-  const auto picture = picture_of(installation::here_for_test(), request);
-  EXPECT_FALSE(picture.has_value());
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "study_request_scenarios";
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file("scenarios/one_way.toml", folder / "one_way.toml",
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto problem = [&](std::uint64_t encounter) {
+    const FanRequest request{
+        .from = {.name = folder.string()}, .encounter = encounter, .who = "car1", .at = 1.0};
+    return picture_of(installation::here_for_test(), request).error().message;
+  };
+  EXPECT_THAT(problem(1), HasSubstr("want an encounter below 1, got 1"));
+  EXPECT_THAT(problem(std::uint64_t{1} << 32), HasSubstr("want an encounter below"));
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

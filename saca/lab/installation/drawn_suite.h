@@ -48,7 +48,7 @@ struct DrawnSuite {
 };
 
 /// @param command      that asks, for the log of the test split
-/// @param other_names  as eval::DrawRequest has them
+/// @param other_names  as eval::SuiteDraw has them
 [[nodiscard]] Result<DrawnSuite> open_suite(const Installation& here, const std::string& suite,
                                             const DrawRequest& draw, const std::string& command,
                                             std::vector<std::string> other_names = {});

@@ -24,6 +24,15 @@ TEST(DrawnSuite, IsDrawnForItsCarAndSplit) {
             "saca balance --suite crossing --count 3 --split tuning --car compact_rwd_ev");
 }
 
+TEST(DrawnSuite, EverySplitHasEncountersOfItsOwn) {
+  const auto first_of = [](const std::string& split) {
+    const auto suite = open_suite(here_for_test(), "crossing", {.split = split}, "suite");
+    return scenario::write_scenario(suite.value().source.sample(0).value().scenario);
+  };
+  EXPECT_EQ(first_of("tuning"), first_of("tuning"));
+  EXPECT_NE(first_of("tuning"), first_of("calibration"));
+}
+
 TEST(DrawnSuite, WhatIsFoundDependsOnTheCar) {
   const Installation here = here_for_test();
   const auto digest_for = [&](const std::string& car) {
@@ -66,7 +75,13 @@ TEST(Survey, TriesAllPoliciesInEachEncounter) {
   const auto found = survey(here, suite.value(), request);
   ASSERT_TRUE(found.has_value());
   ASSERT_TRUE(found.value().has_value());
-  EXPECT_EQ(found.value()->size(), 2U);
+  ASSERT_EQ(found.value()->size(), 2U);
+  // They are eval::look_into's own.
+  const auto sample = suite.value().source.sample(1).value();
+  const auto again = eval::look_into({&sample.scenario, 1}, suite.value().inputs.car,
+                                     suite.value().inputs.harm, 1);
+  EXPECT_EQ(found.value()->at(1).harm, again.front().harm);
+  EXPECT_TRUE(found.value()->at(1).time.has_value());
   EXPECT_TRUE(fs::exists(journal));
   fs::remove(journal);
 }

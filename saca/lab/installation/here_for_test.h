@@ -6,7 +6,7 @@
 
 namespace saca::installation {
 
-/// This project's own files, and a cache that is one test's.
+/// This project's own files, and a cache that is the test program's.
 inline Installation here_for_test() {
   return {.root = ".",
           .model_host = "no_host",

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "saca/base/core/file.h"
 #include "saca/lab/installation/here_for_test.h"
 #include "saca/lab/prepare/shipped_cars_for_test.h"
@@ -24,11 +26,42 @@ TEST(Inputs, AreThoseOfTheNamedCar) {
   EXPECT_THAT(read_inputs(here_for_test(), "no_car").error().message, HasSubstr("no_car: no car"));
 }
 
-TEST(Inputs, OfAScenarioAreItsCarsAndItsEgoHasItsBody) {
+TEST(Inputs, OfAScenarioAreItsCars) {
   const auto inputs = read_scenario_inputs(here_for_test(), "one_way");
   ASSERT_TRUE(inputs.has_value());
   EXPECT_EQ(inputs.value().scenario.name, "one_way");
   EXPECT_EQ(inputs.value().car_name, inputs.value().scenario.car);
+}
+
+/// How far the car's body is before its origin [m].
+double front_of(const std::string& car) {
+  const auto named = read_named_car(here_for_test(), car);
+  const world::Footprint body = manoeuvre::footprint(named.value().car);
+  return body.centre_x + 0.5 * body.length;
+}
+
+// What stands between the fronts of a compact car and of a van touches the van alone.
+TEST(Inputs, AScenarioIsReadWithTheBodyOfItsCar) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "near_body.toml";
+  const double between = 0.5 * (front_of("compact_rwd_ev") + front_of("delivery_van"));
+  ASSERT_GT(std::abs(front_of("delivery_van") - between), 0.05);
+  const auto problem = [&](const std::string& car) {
+    std::string text = read_file("scenarios/one_way.toml").value();
+    const auto put = [&](const std::string& old, const std::string& now) {
+      ASSERT_NE(text.find(old), std::string::npos);
+      text.replace(text.find(old), old.size(), now);
+    };
+    put("car = \"compact_rwd_ev\"", "car = \"" + car + "\"");
+    put("s_m = 66", "s_m = " + std::to_string(3.5 + between));  // an ellipse 7 m long
+    EXPECT_EQ(write_file(file, text), std::nullopt);
+    const auto read = read_scenario_inputs(here_for_test(), file.string());
+    return read.has_value() ? std::string() : read.error().message;
+  };
+  const bool van_is_longer = front_of("delivery_van") > front_of("compact_rwd_ev");
+  EXPECT_EQ(problem(van_is_longer ? "compact_rwd_ev" : "delivery_van"), "");
+  EXPECT_THAT(problem(van_is_longer ? "delivery_van" : "compact_rwd_ev"),
+              HasSubstr("near_body.toml"));
+  std::filesystem::remove(file);
 }
 
 TEST(Inputs, AScenarioOfAnUnknownCarIsRefusedWithFileAndKey) {

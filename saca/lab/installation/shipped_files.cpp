@@ -37,8 +37,7 @@ bool is_other(const ShippedFile& shipped, std::string_view name) {
 
 std::vector<fs::path> files_of(const Installation& here, const ShippedFile& shipped) {
   std::vector<fs::path> files;
-  std::error_code problem;  // a folder that is not there holds none
-  for (const auto& entry : fs::directory_iterator(here.root / shipped.folder, problem)) {
+  for (const auto& entry : fs::directory_iterator(here.root / shipped.folder)) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() == ".toml" && stem.find('.') == stem.npos &&
         !is_other(shipped, stem)) {
@@ -52,7 +51,9 @@ std::vector<fs::path> files_of(const Installation& here, const ShippedFile& ship
 Error not_there(const Installation& here, const ShippedFile& shipped, const std::string& name) {
   std::vector<std::string> names;
   std::vector<std::string> begin_so;
-  for (const fs::path& file : files_of(here, shipped)) {
+  std::error_code problem;
+  const bool is_there = fs::is_directory(here.root / shipped.folder, problem);
+  for (const fs::path& file : is_there ? files_of(here, shipped) : std::vector<fs::path>()) {
     names.push_back(file.stem().string());
     if (names.back().starts_with(name)) {
       begin_so.push_back(names.back());

@@ -26,6 +26,7 @@ namespace saca::installation {
                                                    const std::string& name);
 
 /// The shipped ones' files, by name.
+/// @throws std::filesystem::filesystem_error  where their folder is not there
 [[nodiscard]] std::vector<std::filesystem::path> shipped_scenarios(const Installation& here);
 
 /// The seeds of the splits.

@@ -4,6 +4,7 @@
 
 #include "saca/lab/danger_study/usual_danger.h"
 #include "saca/lab/installation/model_sources.h"
+#include "saca/lab/model_access/open_model.h"
 #include "saca/lab/model_trials/first_question.h"
 #include "saca/lab/vehicle_study/kept_atlas.h"
 

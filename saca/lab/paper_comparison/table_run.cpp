@@ -39,6 +39,7 @@ Result<std::optional<TableRun>> run_table(const Installation& here, const eval::
   const suites::SuiteResult result = suites::result_of(done, request.seed);
   const int few = num_few(conditions.value().size());
   TableRun run{.figures = table_figures(table, done, static_cast<std::size_t>(few), request.seed),
+               .num_few = few,
                .made = done.meta,
                .faults = result.faults + result.method_faults > 0,
                .first_fault = done.rows.front().fault};

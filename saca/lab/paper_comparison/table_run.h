@@ -14,14 +14,15 @@ namespace saca::paper_comparison {
 
 /// One table that was run.
 struct TableRun {
-  TableFigures figures;
+  TableFigures figures;     ///< without `few` where none of these could be played
+  int num_few = 0;          ///< the paper's number of encounters
   nlohmann::json made;      ///< "meta...." of the run
   bool faults = false;      ///< something could not be played, or a method failed
   std::string first_fault;  ///< where `figures` is without `few`: why the first was not played
 };
 
 /// Runs a table with the car of the paper's scenes, or what is left of it, and leaves its rows and
-/// their page in the request's folder.
+/// their page in the request's folder, but where `figures` is without `few`.
 /// @param methods  names of eval::methods(), in the order of tables
 /// @return         nullopt: interrupted
 [[nodiscard]] Result<std::optional<TableRun>> run_table(const installation::Installation& here,

@@ -15,8 +15,11 @@
 namespace saca::shell {
 
 std::string invocation() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);  // words that end in 0
-  const std::string words((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  return invocation_of({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+}
+
+std::string invocation_of(const std::string& words) {
   std::string text = "saca";
   for (std::size_t begin = words.find('\0'); begin + 1 < words.size();) {
     const std::size_t end = std::min(words.find('\0', begin + 1), words.size());

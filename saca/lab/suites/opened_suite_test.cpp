@@ -13,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class OpenedSuite : public testing::Test {
@@ -103,6 +102,7 @@ TEST_F(OpenedSuite, ModelsAreThoseOfTheInstallation) {
   SteadyClock clock;
   const auto open = lockstep_models(here_, clock);
   EXPECT_THAT(open("off", "--untuned").error().message, HasSubstr("--untuned"));
+  EXPECT_THAT(open("local", "--llm").error().message, HasSubstr("no_host"));
 }
 
 }  // namespace
