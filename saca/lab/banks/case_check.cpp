@@ -40,7 +40,7 @@ std::optional<memory::Case> checked(const memory::Case& one, const preview::Fore
   scene.ego_footprint = manoeuvre::footprint(*tools.car);
   scene.ego_mass = tools.car->mass;
   memory::Case now = one;
-  now.told = encounter::told_harms(
+  now.told = encounter::forecast_harms(
       arbitration::Forecaster(tools, draws).judge(scene, beliefs_of(one, intent, scene)));
   now.trust = trust_in(memory::as_good_as_best(one), *now.told);
   if (now.trust == memory::Trust::unchecked) {

@@ -22,7 +22,7 @@ void take_least(memory::PolicyHarms& harms, const manoeuvre::Plan& plan, double 
 
 std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
                                         const intent::Model& intent, const std::string& car) {
-  preview::ForecastTools without_cues = tools;  // told_harms are those as seen
+  preview::ForecastTools without_cues = tools;  // forecast_harms are those as seen
   without_cues.cues = nullptr;
   std::vector<memory::MadeWith> inputs;
   for (const nlohmann::json& one : inputs_json(without_cues, intent, car)) {
@@ -33,7 +33,7 @@ std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
   return inputs;
 }
 
-memory::PolicyHarms told_harms(const reflex::Verdict& verdict) {
+memory::PolicyHarms forecast_harms(const reflex::Verdict& verdict) {
   memory::PolicyHarms harms;
   for (const reflex::JudgedPlan& one : verdict.plans) {
     if (one.drivable) {
@@ -83,7 +83,7 @@ memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger
   const preview::ForecastTools tools{setup.car, setup.harm, setup.atlas, setup.danger};
   one.made_with = made_with(tools, *setup.intent, setup.scenario->car);
   if (decision.verdict) {
-    one.told = told_harms(*decision.verdict);
+    one.told = forecast_harms(*decision.verdict);
   }
   for (const danger::ObstacleRisk& risk : preview::obstacle_risks(trigger.seen, tools)) {
     one.risks.push_back(risk.risk);

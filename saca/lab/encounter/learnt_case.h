@@ -23,7 +23,7 @@ namespace saca::encounter {
                                                       const std::string& car);
 
 /// Of each policy the plan that is expected to harm least, by what is seen.
-[[nodiscard]] memory::PolicyHarms told_harms(const reflex::Verdict& verdict);
+[[nodiscard]] memory::PolicyHarms forecast_harms(const reflex::Verdict& verdict);
 
 /// Of each policy the plan that would have harmed least.
 [[nodiscard]] memory::PolicyHarms happened_harms(std::span<const preview::RolledOut> tried);

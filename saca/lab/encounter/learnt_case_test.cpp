@@ -19,7 +19,7 @@ TEST(PolicyHarms, AreThoseOfThePlanThatHarmsLeast) {
   verdict.plans.push_back({{PolicyId::es_b_left, 5.0}, false, 0.0, 0.0});
   verdict.plans.push_back({{PolicyId::es_b_left, 9.0}, true, 0.4, 1.0});
   verdict.plans.push_back({{PolicyId::t_drift_left, std::nullopt}, false, 0.0, 0.0});
-  const memory::PolicyHarms harms = told_harms(verdict);
+  const memory::PolicyHarms harms = forecast_harms(verdict);
   EXPECT_EQ(harms[0], 0.2);
   EXPECT_EQ(harms[3], 0.4);
   EXPECT_FALSE(harms[5].has_value());

@@ -95,8 +95,9 @@ std::string reason_of(const reflex::Decision& decision, std::span<const Preview>
   if (!decision.similarity) {
     return why_nothing_is_cached(previews);
   }
-  return decision.not_admissible ? "the plan that matches is not admissible"
-                                 : "no cached plan matches above 90 %";
+  return decision.not_admissible          ? "the plan that matches is not admissible"
+         : reflex::was_needless(decision) ? "doing nothing is as good as the plan that matches"
+                                          : "no cached plan matches above 90 %";
 }
 
 }  // namespace saca::encounter

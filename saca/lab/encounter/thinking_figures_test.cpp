@@ -95,6 +95,10 @@ TEST(ReasonOf, TellsWhatBecameOfAPlan) {
   EXPECT_EQ(reason_of({.similarity = 0.5}, {}), "no cached plan matches above 90 %");
   EXPECT_EQ(reason_of({.similarity = 0.95, .not_admissible = true}, {}),
             "the plan that matches is not admissible");
+  EXPECT_EQ(reason_of({.source = Source::arbiter, .similarity = 0.95}, {}),
+            "doing nothing is as good as the plan that matches");
+  EXPECT_EQ(reason_of({.source = Source::arbiter, .similarity = 0.5}, {}),
+            "no cached plan matches above 90 %");
 }
 
 }  // namespace

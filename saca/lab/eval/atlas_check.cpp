@@ -26,7 +26,7 @@ AtlasRow row_of(const Future& told, const Outcome& truth) {
   row.told_clearance = told.clearance;
   row.true_clearance = truth.clearance;
   row.probability = told.probability;
-  row.told_harm = told.harm;
+  row.forecast_harm = told.harm;
   row.true_harm = truth.harm;
   row.later_contacts = static_cast<int>(truth.later.size());
   if (told.contact && truth.contact) {
@@ -78,8 +78,9 @@ Choice choice(const std::vector<AtlasRow>& rows) {
     if (row.refused) {
       continue;
     }
-    if (usable(row) && (choice.chosen == nullptr || less(row, *choice.chosen, &AtlasRow::told_harm,
-                                                         &AtlasRow::told_clearance))) {
+    if (usable(row) &&
+        (choice.chosen == nullptr ||
+         less(row, *choice.chosen, &AtlasRow::forecast_harm, &AtlasRow::told_clearance))) {
       choice.chosen = &row;
     }
     if (choice.best == nullptr ||
@@ -154,7 +155,7 @@ LoneRegret lone_regret(std::span<const std::vector<AtlasRow>> scenes) {
     for (const AtlasRow& row : scene) {
       if (usable(row) && row.told_contact && row.true_contact) {
         (row.later_contacts == 0 ? off : lasting)
-            .push_back(std::abs(row.told_harm - row.true_harm));
+            .push_back(std::abs(row.forecast_harm - row.true_harm));
       }
     }
   }

@@ -28,7 +28,7 @@ struct AtlasRow {
   double told_clearance = 0.0;  ///< [m]
   double true_clearance = 0.0;  ///< [m]
   double probability = 0.0;     ///< of contact, as told
-  double told_harm = 0.0;       ///< first contact only
+  double forecast_harm = 0.0;   ///< first contact only
   double true_harm = 0.0;       ///< of all contacts
   int later_contacts = 0;       ///< of full physics, after the first
   double told_chance = 0.0;     ///< of contact, when the grip is known to grip_sd_share only

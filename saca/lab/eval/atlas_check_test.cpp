@@ -30,7 +30,7 @@ TEST(AtlasCheck, PutsAtlasAndPhysicsSideBySide) {
 
 AtlasRow row(PolicyId policy, double told, double truth) {
   AtlasRow row{.plan = {policy, std::nullopt}};
-  row.told_harm = told;
+  row.forecast_harm = told;
   row.true_harm = truth;
   row.told_contact = told > 0.0;
   row.true_contact = truth > 0.0;

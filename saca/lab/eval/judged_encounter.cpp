@@ -13,7 +13,7 @@ namespace saca::eval {
 namespace {
 
 void take_verdict(const reflex::Verdict& verdict, JudgedEncounter& judged) {
-  judged.one.told = encounter::told_harms(verdict);
+  judged.one.told = encounter::forecast_harms(verdict);
   judged.admissible_harm = reflex::admissible_harm(verdict);
   judged.speaks_for = reflex::plan_of(verdict);
   judged.plans.reserve(verdict.plans.size());

@@ -21,8 +21,8 @@ memory::Case case_now(const encounter::ClosedLoop& now, const encounter::Stage& 
   one.harm = outcome.harm;
   one.best_harm = outcome.harm;
   one.collision_loss = outcome.collision_loss;
-  one.told =
-      encounter::told_harms(arbitration::Forecaster(tools, draws).judge(now.seen(), now.beliefs()));
+  one.told = encounter::forecast_harms(
+      arbitration::Forecaster(tools, draws).judge(now.seen(), now.beliefs()));
   one.happened = encounter::happened_harms(tried);
   one.made_with = made_with;
   return one;

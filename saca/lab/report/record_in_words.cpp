@@ -16,6 +16,7 @@
 #include "saca/base/formats/json_text.h"
 #include "saca/lab/report/verdicts_told.h"
 #include "saca/onboard/manoeuvre/plan.h"
+#include "saca/onboard/reflex/reflex_plane.h"
 
 namespace saca::report {
 namespace {
@@ -411,12 +412,15 @@ Story::Sentences Story::chosen() const {
   Sentences told{fmt::format("At {:.2f} s {} was begun (source: {}).", decided_at(),
                              plan_name(decision_), source())};
   if (!decision_.at("similarity").is_null()) {
+    const double similarity = decision_.at("similarity").get<double>();
+    const bool needless = source() == "arbiter" && similarity > reflex::match_similarity;
     told.push_back(fmt::format(
         "The situation most like this one for which a plan was ready was like it to {}{}.",
-        percent(decision_.at("similarity").get<double>()),
+        percent(similarity),
         decision_.at("not_admissible").get<bool>()
             ? ", but that plan is expected to harm too much from here"
-            : ""));
+        : needless ? ", but doing nothing is expected to be as good as that plan"
+                   : ""));
   }
   told.push_back(fmt::format("It was begun because {}.", because()));
   if (source() == "memory" || source() == "model") {

@@ -238,5 +238,26 @@ TEST(Explanation, RefusesWhatIsNoRecord) {
   EXPECT_THAT(explanation(cut.dump(), "r.json").error().message, HasSubstr("'switches'"));
 }
 
+TEST(RecordInWords, TellsWhatBecameOfTheSituationMostAlike) {
+  const auto told = [](double similarity, bool not_admissible) {
+    json one = record();
+    one["decision"]["similarity"] = similarity;
+    one["decision"]["not_admissible"] = not_admissible;
+    std::string text;
+    for (const Paragraph& paragraph : explanation(one.dump(), "r").value()) {
+      for (const std::string& sentence : paragraph.sentences) {
+        text += sentence + " ";
+      }
+    }
+    return text;
+  };
+  EXPECT_THAT(told(0.61, false), testing::HasSubstr("was like it to 61 %. "));
+  EXPECT_THAT(told(0.95, true),
+              testing::HasSubstr("95 %, but that plan is expected to harm too much from here."));
+  EXPECT_THAT(
+      told(0.95, false),
+      testing::HasSubstr("95 %, but doing nothing is expected to be as good as that plan."));
+}
+
 }  // namespace
 }  // namespace saca::report::record_in_words_test

@@ -26,6 +26,11 @@ std::string_view name(Source source) {
   return name_of(source, source_names);
 }
 
+bool was_needless(const Decision& decision) noexcept {
+  return decision.source == Source::arbiter && !decision.not_admissible && decision.similarity &&
+         *decision.similarity > match_similarity;
+}
+
 Decision ReflexPlane::decide(const Scene& scene) noexcept {
   Decision decision = tools_.forced ? as_asked_for(scene) : chosen(scene);
   const auto why = tools_.car == nullptr
@@ -78,7 +83,10 @@ Decision ReflexPlane::chosen(const Scene& scene) noexcept {
                             : decision.verdict ? admits(*decision.verdict, wanted)
                                                : !best->worse_than_aeb;
     decision.not_admissible = !admissible;
-    if (admissible) {
+    // Nobody takes the wheel, at whosever word, where doing nothing is as good (plan_of).
+    const bool needless =
+        guarded && decision.verdict && admits(*decision.verdict, manoeuvre::doing_nothing);
+    if (admissible && !needless) {
       decision.plan = wanted;
       decision.source = best->source;
     }

@@ -48,6 +48,10 @@ struct Decision {
   std::optional<double> waiting_cost;  ///< of harm, expected: why it acts before T1; nullopt: at T1
 };
 
+/// Whether a cached plan matched and is admissible, but was not begun, since doing nothing is as
+/// good (plan_of).
+[[nodiscard]] bool was_needless(const Decision& decision) noexcept;
+
 /// What the reflex plane says to one scene.
 struct Reflex {
   manoeuvre::Plan plan{manoeuvre::PolicyId::no_intervention,

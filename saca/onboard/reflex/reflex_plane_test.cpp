@@ -364,6 +364,29 @@ TEST(ReflexPlane, PrefersTheCachedPlanWhereItIsAdmissible) {
   EXPECT_TRUE(decided(0.007).not_admissible);
 }
 
+TEST(ReflexPlane, BeginsNoCachedPlanWhereDoingNothingIsAsGood) {
+  const auto decided = [](double harm_of_nothing, Guard guard) {
+    ReflexPlane plane{ReflexTools{.guard = guard}};
+    Scene scene = wreck_in(1.28);
+    scene.time = 5.0;
+    plane.receive(one_plan(scene, PolicyId::aeb));
+    plane.receive(
+        verdict_of(5.0, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, harm_of_nothing}}));
+    (void)plane.step(scene);
+    return plane.decision().value();
+  };
+  const Decision needless = decided(0.001, Guard::never_worse_than_braking);  // within 0.002
+  EXPECT_EQ(needless.plan, manoeuvre::doing_nothing);
+  EXPECT_EQ(needless.source, Source::arbiter);
+  EXPECT_FALSE(needless.not_admissible);
+  EXPECT_TRUE(was_needless(needless));
+  const Decision needed = decided(0.003, Guard::never_worse_than_braking);
+  EXPECT_EQ(needed.plan, manoeuvre::full_braking);
+  EXPECT_EQ(needed.source, Source::model);
+  EXPECT_FALSE(was_needless(needed));
+  EXPECT_EQ(decided(0.001, Guard::none).source, Source::model);  // by the paper's rule
+}
+
 // Memory and model choose policy 0, the verdict how hard; without a verdict, or by the paper's
 // rule, it is full braking whatever was forecast.
 TEST(ReflexPlane, BrakesAsHardAsTheVerdictSaysWhereBrakingWasChosen) {

@@ -143,6 +143,8 @@ std::string decision_text(const reflex::Decision& decision) {
   }
   if (decision.not_admissible) {
     text += ", whose plan would do too much harm from here";
+  } else if (reflex::was_needless(decision)) {
+    text += ", whose plan is not begun, for doing nothing is as good";
   } else if (decision.similarity) {
     text += ", not more than 90 %";
   }

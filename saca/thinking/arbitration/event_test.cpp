@@ -43,6 +43,20 @@ TEST(Event, SaysWhatCannotBeDriven) {
   EXPECT_THAT(decision_text(decision), HasSubstr("AES-L cannot be driven from here (speed)"));
 }
 
+TEST(Event, SaysWhyTheMatchingPlanIsNotBegun) {
+  reflex::Decision decision{.plan = manoeuvre::doing_nothing,
+                            .source = reflex::Source::arbiter,
+                            .similarity = 0.95,
+                            .preview = 0};
+  EXPECT_THAT(decision_text(decision), HasSubstr("95 % like forecast 1, whose plan is not begun, "
+                                                 "for doing nothing is as good"));
+  decision.not_admissible = true;
+  EXPECT_THAT(decision_text(decision), HasSubstr(", whose plan would do too much harm from here"));
+  decision.not_admissible = false;
+  decision.similarity = 0.5;
+  EXPECT_THAT(decision_text(decision), HasSubstr(", not more than 90 %"));
+}
+
 /// AEB was chosen by a model whose reasons did not hold.
 Preview badly_explained() {
   Preview preview{.situation = language_model::example_situation()};

@@ -52,7 +52,7 @@ std::string numbered(const std::vector<std::string_view>& statements) {
 /// Of a policy that is not admissible.
 std::string facts_beside_the_best(const preview::Situation& situation, PolicyId chosen) {
   const auto line = [&](const preview::PolicyFacts& facts) {
-    return told_policy(facts, situation.scene_at_trigger);
+    return prompt_policy(facts, situation.scene_at_trigger);
   };
   return fmt::format(
       "1. {}\n2. The best forecast is that of {}\n",

@@ -284,7 +284,7 @@ std::string forecast_line(const preview::PolicyFacts& facts, const Scene& scene,
     how = in_whole ? fmt::format("clear by {} m", measured(outcome.clearance)) : "clear";
   }
   return policy_label(facts.plan) + ": " + how +
-         (has_chance(facts, in_whole) ? chance_text(facts) : "") + ", " + told_harm(outcome.harm);
+         (has_chance(facts, in_whole) ? chance_text(facts) : "") + ", " + prompt_harm(outcome.harm);
 }
 
 /// Every line that may stand in a prompt.
@@ -356,7 +356,7 @@ std::string history_line(const std::optional<memory::Case>& nearest, double simi
     return "no case is alike\n";
   }
   const auto policy_harm = [](PolicyId policy, double harm) {
-    return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), told_harm(harm));
+    return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), prompt_harm(harm));
   };
   if (memory::is_hearsay(*nearest)) {
     return fmt::format("A case {:.0f} % alike: somebody says that {} {} is best\n",
@@ -512,7 +512,7 @@ std::string cue_place(const world::Cue& cue, const Scene& scene) {
   return placed(inverse(scene.ego.X_WB) * cue.p_W);
 }
 
-std::string told_policy(const preview::PolicyFacts& facts, const world::Scene& scene) {
+std::string prompt_policy(const preview::PolicyFacts& facts, const world::Scene& scene) {
   return forecast_line(facts, scene, true);
 }
 
@@ -544,8 +544,8 @@ std::string harm_text(double harm) {
   return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
 }
 
-std::string told_harm(double harm) {
-  return harm < told_as_none ? "no harm" : "harm " + harm_digits(harm);
+std::string prompt_harm(double harm) {
+  return harm < prompt_no_harm ? "no harm" : "harm " + harm_digits(harm);
 }
 
 std::string_view beyond_text(world::Beyond beyond) {

@@ -58,14 +58,15 @@ constexpr int most_prompt_tokens = 360;
 [[nodiscard]] std::string policy_label(const manoeuvre::Plan& plan);
 
 /// Told as no harm in a scene part: below this [harm].
-constexpr double told_as_none = 0.5e-3;
+constexpr double prompt_no_harm = 0.5e-3;
 /// As a scene part tells it, rounded to 0.001, from 0.1 on to 0.01, from 1 on to 0.1: "harm 0.013",
 /// "harm 1.2", or "no harm".
-[[nodiscard]] std::string told_harm(double harm);
+[[nodiscard]] std::string prompt_harm(double harm);
 
 /// A policy's line of a scene part, told in whole: "1 AES-L: hits truck1 at 9.0 m/s, harm 0.013".
 /// @param facts  of one that can be driven
-[[nodiscard]] std::string told_policy(const preview::PolicyFacts& facts, const world::Scene& scene);
+[[nodiscard]] std::string prompt_policy(const preview::PolicyFacts& facts,
+                                        const world::Scene& scene);
 
 /// How far it is to an edge of the road, as a scene part tells it: "5.2".
 /// @param way  [m]; below 0: the ego is beyond it

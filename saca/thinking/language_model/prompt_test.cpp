@@ -75,14 +75,14 @@ TEST(Prompt, ForecastOfEachPolicyIsTold) {
 
 // To 0.001, 0.01 and 0.1; what is below half a thousandth is none.
 TEST(Prompt, HarmIsRounded) {
-  EXPECT_EQ(told_harm(0.0), "no harm");
-  EXPECT_EQ(told_harm(0.00049), "no harm");
-  EXPECT_EQ(told_harm(0.00051), "harm 0.001");
-  EXPECT_EQ(told_harm(0.0994), "harm 0.099");
-  EXPECT_EQ(told_harm(0.0996), "harm 0.10");
-  EXPECT_EQ(told_harm(0.9949), "harm 0.99");
-  EXPECT_EQ(told_harm(0.9951), "harm 1.0");
-  EXPECT_EQ(told_harm(12.34), "harm 12.3");
+  EXPECT_EQ(prompt_harm(0.0), "no harm");
+  EXPECT_EQ(prompt_harm(0.00049), "no harm");
+  EXPECT_EQ(prompt_harm(0.00051), "harm 0.001");
+  EXPECT_EQ(prompt_harm(0.0994), "harm 0.099");
+  EXPECT_EQ(prompt_harm(0.0996), "harm 0.10");
+  EXPECT_EQ(prompt_harm(0.9949), "harm 0.99");
+  EXPECT_EQ(prompt_harm(0.9951), "harm 1.0");
+  EXPECT_EQ(prompt_harm(12.34), "harm 12.3");
 }
 
 // 0.5 above the best braking allows 0.015; of two that harm as much the milder comes first.

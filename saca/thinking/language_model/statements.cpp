@@ -123,7 +123,7 @@ std::string Statements::end_beside(PolicyId policy, std::size_t actor) const {
 
 std::string Statements::with_harm(PolicyId policy) const {
   const PolicyFacts& its = facts(policy);
-  return its.drivable() && its.outcome().contact ? ", " + told_harm(its.outcome().harm) : "";
+  return its.drivable() && its.outcome().contact ? ", " + prompt_harm(its.outcome().harm) : "";
 }
 
 std::vector<std::string> Statements::warnings() const {
@@ -238,7 +238,7 @@ std::vector<std::string> Statements::advantages(PolicyId choice, PolicyId other)
   const PolicyFacts& mine = facts(choice);
   const PolicyFacts& theirs = facts(other);
   if (is_alone()) {
-    return {", " + told_harm(theirs.outcome().harm)};
+    return {", " + prompt_harm(theirs.outcome().harm)};
   }
   std::vector<std::string> all;
   const auto add_if = [&](bool so, std::string what) {

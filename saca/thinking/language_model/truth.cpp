@@ -60,7 +60,7 @@ bool is_so(Claim claim, const PolicyFacts& facts, const Situation& situation) {
     case Claim::hits:
       return hits(facts);
     case Claim::no_harm:
-      return facts.drivable() && facts.outcome().harm < told_as_none;
+      return facts.drivable() && facts.outcome().harm < prompt_no_harm;
     case Claim::least_harm:
       return facts.drivable() &&
              facts.outcome().harm <= preview::least_harm(situation.facts) + collision::harm_tie;
