@@ -48,7 +48,7 @@ Result<Inputs> read_inputs(const Installation& here, const std::string& car) {
   }
   prepare::NamedCar of = std::move(named).value();
   return Inputs{.car_name = std::move(of.name),
-                .car = std::move(of.car),
+                .car = of.car,
                 .harm = harm.value(),
                 .intent = std::move(intent).value(),
                 .cues = cues.value()};
