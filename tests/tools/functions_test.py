@@ -21,7 +21,6 @@ LONGER = {
     "saca/lab/prepare/atlas_build.cpp": 54,
     "saca/lab/recordings/hundred_car_file.cpp": 52,
     "saca/lab/report/value_json.cpp": 60,
-    "saca/lab/runs/run_means.cpp": 53,
     "saca/lab/suites/shadow.cpp": 73,
     "saca/onboard/collision/edge.cpp": 58,
     "saca/onboard/forecast/atlas_ego.cpp": 51,

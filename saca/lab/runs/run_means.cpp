@@ -66,6 +66,20 @@ runtime::Pace pace_of(const RunRequest& request) {
   return request.pace == "real" ? runtime::Pace::real : runtime::Pace::lockstep;
 }
 
+/// Of a record that is made of this run.
+Result<encounter::Provenance> provenance_of(const Installation& here, const RunRequest& request) {
+  auto digest = installation::scenario_digest(here, request.scenario);
+  if (!digest.has_value()) {
+    return digest.error();
+  }
+  return encounter::Provenance{.program = "saca " + here.version,
+                               .commit = here.commit,
+                               .date = request.date,
+                               .command = request.command,
+                               .file = request.scenario,
+                               .digest = std::move(digest).value()};
+}
+
 Result<model_access::ChosenModel> open_model_of(const Installation& here, const RunRequest& request,
                                                 Clock& clock) {
   auto chosen = model_access::ChosenModel::open(installation::model_sources(here), request.model,
@@ -90,9 +104,9 @@ Result<std::unique_ptr<RunMeans>> open_means(const Installation& here, const Run
           {files.record, files.report, files.trace, files.tape, request.record_replies})) {
     return *problem;
   }
-  auto digest = installation::scenario_digest(here, request.scenario);
-  if (!digest.has_value()) {
-    return digest.error();
+  auto provenance = provenance_of(here, request);
+  if (!provenance.has_value()) {
+    return provenance.error();
   }
   const auto costs = installation::read_costs(here);
   if (!costs.has_value()) {
@@ -119,12 +133,7 @@ Result<std::unique_ptr<RunMeans>> open_means(const Installation& here, const Run
     return forced.error();
   }
   return std::make_unique<RunMeans>(RunMeans{.inputs = std::move(inputs).value(),
-                                             .provenance = {.program = "saca " + here.version,
-                                                            .commit = here.commit,
-                                                            .date = request.date,
-                                                            .command = request.command,
-                                                            .file = request.scenario,
-                                                            .digest = std::move(digest).value()},
+                                             .provenance = std::move(provenance).value(),
                                              .costs = costs.value(),
                                              .atlas = std::move(atlas).value(),
                                              .danger = std::move(danger).value(),
