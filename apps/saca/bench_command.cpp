@@ -1,4 +1,5 @@
 #include "apps/saca/options.h"
+#include "saca/base/core/clock.h"
 #include "saca/lab/benchmarks/chosen_times.h"
 #include "saca/lab/benchmarks/figures_text.h"
 

@@ -101,10 +101,6 @@ installation::ScenarioInputs read_scenario_inputs(const std::string& scenario) {
   return need(installation::read_scenario_inputs(here(), scenario));
 }
 
-std::shared_ptr<const vehicle_study::PlanesOfCar> open_planes(const std::string& car) {
-  return need(vehicle_study::open_planes(here(), car));
-}
-
 CLI::App& add_group(CLI::App& parent, const std::string& name, const std::string& about) {
   CLI::App* const group = parent.add_subcommand(name, about);
   group->require_subcommand(1);

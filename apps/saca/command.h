@@ -16,7 +16,6 @@
 #include "saca/base/core/printable.h"
 #include "saca/base/formats/short_numbers.h"
 #include "saca/lab/installation/inputs.h"
-#include "saca/lab/vehicle_study/car_planes.h"
 
 /// The command line: what every command is made of. A command reads what its options name, has the
 /// laboratory work it out, and tells or writes what came; where something cannot be used it ends at
@@ -80,12 +79,12 @@ inline constexpr const char* goes_on =
     "interrupted; the same command goes on where this one stopped";
 
 /// Likewise of work that can be interrupted.
-/// @param told  where it was: what is said
+/// @param message  where it was: what is said
 template <class T>
-[[nodiscard]] T need_whole(Result<std::optional<T>> result, const std::string& told = goes_on) {
+[[nodiscard]] T need_whole(Result<std::optional<T>> result, const std::string& message = goes_on) {
   std::optional<T> whole = need(std::move(result));
   if (!whole) {
-    refuse(was_interrupted, told);
+    refuse(was_interrupted, message);
   }
   return *std::move(whole);
 }
@@ -127,7 +126,7 @@ void tell(bool as_json, Json document, const std::string& text) {
   app::print("{}", as_json ? json_text(std::move(document)) : text);
 }
 
-/// Tells in words what is found while work goes on; programs are told in the end.
+/// Prints in words what is found while work goes on; a document for programs follows at its end.
 void tell_meanwhile(bool as_json, const std::string& text);
 
 /// Figures, and who made them.
@@ -153,7 +152,6 @@ struct Settings {
 /// As installation::read_inputs and so on, from there.
 [[nodiscard]] installation::Inputs read_inputs(const std::string& car);
 [[nodiscard]] installation::ScenarioInputs read_scenario_inputs(const std::string& scenario);
-[[nodiscard]] std::shared_ptr<const vehicle_study::PlanesOfCar> open_planes(const std::string& car);
 
 /// The commit that the program was built from: "13bf0c6a2b1d", with "-dirty" behind it where files
 /// had been changed; "unknown" where that was no checkout. Defined in a file that is made in every

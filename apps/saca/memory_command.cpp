@@ -97,7 +97,7 @@ void tell_statistics(const BankOptions& options) {
 
 void check_bank(const BankOptions& options) {
   banks::ReadBank bank = need(banks::read_bank(options.file));
-  const auto planes = open_planes(options.car);
+  const auto planes = need(vehicle_study::open_planes(here(), options.car));
   long_work::watch_for_interrupt();
   const auto check =
       need(banks::check(bank, banks::case_tools(*planes, options.draws),

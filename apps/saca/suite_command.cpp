@@ -11,6 +11,7 @@
 #include "saca/lab/suites/traffic_json.h"
 #include "saca/lab/suites/traffic_page.h"
 #include "saca/lab/suites/traffic_text.h"
+#include "saca/lab/vehicle_study/car_planes.h"
 
 namespace saca::app {
 namespace {

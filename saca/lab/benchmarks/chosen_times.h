@@ -17,7 +17,7 @@ struct TimesRequest {
 };
 
 /// Figures of all that is asked for.
-/// @param note  told of what is being done of "reach"
+/// @param note  called with each step of "reach" before it begins
 [[nodiscard]] Result<nlohmann::json> chosen_times(
     const installation::Installation& here, const TimesRequest& request, const Clock& clock,
     const std::function<void(const std::string& what)>& note);

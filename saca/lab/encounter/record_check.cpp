@@ -73,6 +73,9 @@ bool RecordCheck::is_same() const {
 
 RecordCheck check_record(const json& record, const InputsHere& here) {
   RecordCheck check{.made = record.at("made"), .content = content_digest(record), .inputs = {}};
+  for (const char* const key : {"program", "commit", "date", "command", "content"}) {
+    (void)check.made.at(key).get<std::string>();
+  }
   for (const json& one : check.made.at("inputs")) {
     check.inputs.push_back(dependency_of(one, here));
   }

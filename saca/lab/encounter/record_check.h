@@ -52,11 +52,9 @@ struct RecordCheck {
 [[nodiscard]] RecordCheck check_record(const nlohmann::json& record, const InputsHere& here);
 
 /// The document of `saca verify --json`, schema saca.verification/1: docs/formats.md.
-/// @throws nlohmann::json::exception  if `made` is not whole
 [[nodiscard]] nlohmann::json json_of(const RecordCheck& check);
 
 /// The same for people: who made it, and a line for the content and for each input.
-/// @throws nlohmann::json::exception  likewise
 [[nodiscard]] std::string text_of(const RecordCheck& check);
 
 }  // namespace saca::encounter

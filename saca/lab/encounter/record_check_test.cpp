@@ -97,6 +97,13 @@ TEST(RecordCheck, WhatIsNotWholeThrows) {
   json no_content = record();
   no_content["made"].erase("content");
   EXPECT_THROW((void)recorded_inputs(no_content.at("made")), json::exception);
+  for (const char* const key : {"program", "commit", "date", "command", "content"}) {
+    json without = record();
+    without["made"].erase(key);
+    EXPECT_THROW((void)check_record(without, all_here()), json::exception) << key;
+    without["made"][key] = 3;
+    EXPECT_THROW((void)check_record(without, all_here()), json::exception) << key;
+  }
   json no_digest = record();
   no_digest["made"]["inputs"][0].erase("digest");
   EXPECT_THROW((void)check_record(no_digest, all_here()), json::exception);

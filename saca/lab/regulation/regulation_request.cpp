@@ -3,9 +3,10 @@
 #include <fmt/core.h>
 
 #include <memory>
-#include <sstream>
+#include <string_view>
 #include <utility>
 
+#include "saca/base/core/csv.h"
 #include "saca/lab/eval/regulation_file.h"
 #include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/suites/method_list.h"
@@ -16,12 +17,11 @@ namespace saca::regulation {
 namespace {
 
 std::vector<std::string> words_of(const std::string& list) {
-  std::vector<std::string> words;
-  std::istringstream stream(list);
-  for (std::string word; std::getline(stream, word, ',');) {
-    words.push_back(word);
+  std::vector<std::string_view> words = fields_of(list, ',');
+  if (words.back().empty()) {  // behind the last comma, or of an empty list
+    words.pop_back();
   }
-  return words;
+  return {words.begin(), words.end()};
 }
 
 }  // namespace

@@ -413,14 +413,18 @@ Story::Sentences Story::chosen() const {
                              plan_name(decision_), source())};
   if (!decision_.at("similarity").is_null()) {
     const double similarity = decision_.at("similarity").get<double>();
-    const bool needless = source() == "arbiter" && similarity > reflex::match_similarity;
+    const bool not_admissible = decision_.at("not_admissible").get<bool>();
+    const bool by_arbiter = source() == name(reflex::Source::arbiter);
+    const bool needless = reflex::was_needless(
+        {.source = by_arbiter ? reflex::Source::arbiter : reflex::Source::fallback,
+         .similarity = similarity,
+         .not_admissible = not_admissible});
     told.push_back(fmt::format(
         "The situation most like this one for which a plan was ready was like it to {}{}.",
         percent(similarity),
-        decision_.at("not_admissible").get<bool>()
-            ? ", but that plan is expected to harm too much from here"
-        : needless ? ", but doing nothing is expected to be as good as that plan"
-                   : ""));
+        not_admissible ? ", but that plan is expected to harm too much from here"
+        : needless     ? ", but doing nothing is expected to be as good as that plan"
+                       : ""));
   }
   told.push_back(fmt::format("It was begun because {}.", because()));
   if (source() == "memory" || source() == "model") {

@@ -53,13 +53,11 @@ Result<encounter::RecordCheck> verified(const Installation& here, const std::str
         file + ": made: want who made the record by what, got none: it is older than that"};
   }
   try {
-    encounter::RecordCheck check = encounter::check_record(
-        record, {.inputs = read_now(here, encounter::recorded_inputs(*made)),
-                 .digest_of = [&](const std::string& name) {
-                   return installation::scenario_digest(here, name);
-                 }});
-    static_cast<void>(encounter::text_of(check));  // that can be told, too
-    return check;
+    return encounter::check_record(record,
+                                   {.inputs = read_now(here, encounter::recorded_inputs(*made)),
+                                    .digest_of = [&](const std::string& name) {
+                                      return installation::scenario_digest(here, name);
+                                    }});
   } catch (const json::exception& problem) {
     return Error{Error::Code::malformed,
                  file + ": made: want it whole, got: " + one_line(problem.what())};

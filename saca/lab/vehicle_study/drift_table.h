@@ -54,7 +54,7 @@ void add_to(nlohmann::json& figures, const DriftCell& cell);
 [[nodiscard]] std::string drift_table_head(const DriftDraws& draws);
 [[nodiscard]] std::string text_of(const DriftCell& cell);
 
-/// The table of several cars, told line by line as it grows, and added to the figures.
+/// The table of several cars, printed line by line as it grows, and added to the figures.
 /// @param cars  files, or names of shipped ones
 /// @param tell  takes lines
 /// @return      a car that cannot be read
