@@ -107,8 +107,8 @@ match::EgoFeatures read_ego_features(JsonReader from) {
   ego.log_grip = from.number("log_grip");
   ego.lane_width = from.number("lane_width_m");
   ego.curve = from.number("curve_mps2");
-  ego.room_left = from.number("room_left_m");
-  ego.room_right = from.number("room_right_m");
+  ego.to_left_edge = from.number("room_left_m");
+  ego.to_right_edge = from.number("room_right_m");
   ego.topology = from.word("topology", world::topology_from, "straight, intersection or one_way");
   ego.left_beyond = from.word("left_beyond", world::beyond_from, beyonds);
   ego.right_beyond = from.word("right_beyond", world::beyond_from, beyonds);

@@ -81,7 +81,7 @@ TEST_F(ScaleCalibrationTest, IsPrintedForPrograms) {
   EXPECT_EQ(out.at("memory.scales.error.fitted"), 0.125);
   EXPECT_EQ(out.at("memory.scales.speed.shipped"), match::Scales{}.speed);
   EXPECT_EQ(out.at("memory.scales.speed.fitted"), 2.0 * match::Scales{}.speed);
-  EXPECT_EQ(out.at("memory.scales.room.fitted"), match::Scales{}.room);
+  EXPECT_EQ(out.at("memory.scales.room.fitted"), match::Scales{}.to_edge);
   EXPECT_EQ(out.at("memory.scales.check_error.shipped"), 0.5);
   EXPECT_EQ(out.at("memory.scales.check_error.fitted"), 0.375);
   calibration.check.reset();

@@ -48,8 +48,8 @@ void write_ego(const match::EgoFeatures& ego, float* to) {
   out.add(ego.log_grip / 0.5);
   out.add(ego.lane_width / 3.5 - 1.0);
   out.add(ego.curve / 3.0);
-  out.add(ego.room_left / 6.0);
-  out.add(ego.room_right / 6.0);
+  out.add(ego.to_left_edge / 6.0);
+  out.add(ego.to_right_edge / 6.0);
   out.add(world::is_hard(ego.left_beyond));
   out.add(world::is_hard(ego.right_beyond));
   out.add(ego.oncoming_left);

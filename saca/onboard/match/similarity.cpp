@@ -20,7 +20,7 @@ namespace {
 
 using world::ActorKind;
 
-constexpr double ample_room = 7.0;      // [m]
+constexpr double ample_to_edge = 7.0;   // [m]
 constexpr double other_ground = 2.0;    // soft instead of hard beyond an edge that is at hand
 constexpr double other_marking = 1.25;  // oncoming traffic or not
 constexpr double other_topology = 4.0;
@@ -72,8 +72,8 @@ EgoFeatures ego_features(const world::Scene& scene, const world::LanePose& ego) 
           .log_grip = std::log(scene.grip),
           .lane_width = road.lane_width,
           .curve = road.curvature * dot(v_L, v_L),
-          .room_left = std::min(road.left_edge - ego.d, ample_room),
-          .room_right = std::min(ego.d - road.right_edge, ample_room),
+          .to_left_edge = std::min(road.left_edge - ego.d, ample_to_edge),
+          .to_right_edge = std::min(ego.d - road.right_edge, ample_to_edge),
           .topology = road.topology,
           .left_beyond = road.left_beyond,
           .right_beyond = road.right_beyond,
@@ -154,13 +154,13 @@ std::array<Real, num_ego_parts> ego_squares(const ScaledEgo<Real>& a, const Scal
   Real turned = std::abs(a.parts[ego_heading] - b.parts[ego_heading]);
   turned = turned > a.half_turn ? 2 * a.half_turn - turned : turned;
   squares[ego_heading] = square(turned);
-  // What lies beyond matters fully within a lane's width and not at all where room is ample.
-  const auto ground = [&](std::size_t room, bool is_other, Real nearness) {
+  // What lies beyond matters fully within a lane's width and not at all where it is far away.
+  const auto ground = [&](std::size_t part, bool is_other, Real nearness) {
     const Real share = std::clamp(nearness, Real{0}, Real{1});
-    squares[room] += is_other ? square(static_cast<Real>(other_ground) * share) : Real{0};
+    squares[part] += is_other ? square(static_cast<Real>(other_ground) * share) : Real{0};
   };
-  ground(ego_room_left, a.hard_left != b.hard_left, (a.near_left + b.near_left) / 2);
-  ground(ego_room_right, a.hard_right != b.hard_right, (a.near_right + b.near_right) / 2);
+  ground(ego_to_left_edge, a.hard_left != b.hard_left, (a.near_left + b.near_left) / 2);
+  ground(ego_to_right_edge, a.hard_right != b.hard_right, (a.near_right + b.near_right) / 2);
   return squares;
 }
 
@@ -384,12 +384,12 @@ ScaledEgo<Real> scaled(const EgoFeatures& ego, const Scales& scales) noexcept {
       real(ego.yaw_rate / scales.yaw_rate),     real(ego.length / scales.ego_size),
       real(ego.width / scales.ego_size),        real(ego.log_grip / scales.log_grip),
       real(ego.lane_width / scales.lane_width), real(ego.curve / scales.curve),
-      real(ego.room_left / scales.room),        real(ego.room_right / scales.room)};
-  const auto nearness = [&](double room) {
-    return real((ample_room - room) / (ample_room - lane));
+      real(ego.to_left_edge / scales.to_edge),  real(ego.to_right_edge / scales.to_edge)};
+  const auto nearness = [&](double distance) {
+    return real((ample_to_edge - distance) / (ample_to_edge - lane));
   };
-  result.near_left = nearness(ego.room_left);
-  result.near_right = nearness(ego.room_right);
+  result.near_left = nearness(ego.to_left_edge);
+  result.near_right = nearness(ego.to_right_edge);
   result.half_turn = real(std::numbers::pi / scales.heading);
   result.usable = ego.usable;
   result.hard_left = world::is_hard(ego.left_beyond);
@@ -490,8 +490,8 @@ std::vector<DifferencePart> difference_parts(const world::Scene& a, const world:
       {"grip", root({ego_grip})},
       {"width of the lane", root({ego_lane_width})},
       {"curve", root({ego_curve})},
-      {"room to the left", root({ego_room_left})},
-      {"room to the right", root({ego_room_right})},
+      {"room to the left", root({ego_to_left_edge})},
+      {"room to the right", root({ego_to_right_edge})},
       {"road and markings", std::sqrt(road_difference2(ego_a, ego_b))}};
   const bool fewer = of_a.actors.size() <= of_b.actors.size();
   const world::Scene& rows = fewer ? a : b;

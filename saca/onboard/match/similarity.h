@@ -27,9 +27,9 @@ struct EgoFeatures {
   double width = 0.0;
   double log_grip = 0.0;
   double lane_width = 0.0;
-  double curve = 0.0;       ///< acceleration that following the lane takes [m/s^2], > 0 to the left
-  double room_left = 0.0;   ///< from the centre of mass to the edge, at most `ample_room` [m]
-  double room_right = 0.0;  ///< likewise
+  double curve = 0.0;  ///< acceleration that following the lane takes [m/s^2], > 0 to the left
+  double to_left_edge = 0.0;   ///< from the centre of mass to the edge, at most `ample_to_edge` [m]
+  double to_right_edge = 0.0;  ///< likewise
   world::Topology topology = world::Topology::straight;
   world::Beyond left_beyond = world::Beyond::unmarked;
   world::Beyond right_beyond = world::Beyond::unmarked;
@@ -69,7 +69,7 @@ struct Scales {
   double ego_size = 2.0;    ///< [m], assumed
   double lane_width = 1.0;  ///< [m], assumed
   double curve = 2.0;       ///< [m/s^2], assumed
-  double room = 3.0;        ///< to an edge [m]
+  double to_edge = 3.0;     ///< to an edge [m]
   // Of an actor. Where it will be across the lane in 1 s counts most: it hits or misses.
   double along_now = 6.0;      ///< [m]
   double across_now = 4.0;     ///< [m]
@@ -95,8 +95,8 @@ enum EgoPart : std::size_t {
   ego_grip,
   ego_lane_width,
   ego_curve,
-  ego_room_left,
-  ego_room_right,
+  ego_to_left_edge,
+  ego_to_right_edge,
 };
 constexpr std::size_t num_ego_parts = 12;
 
@@ -104,7 +104,7 @@ constexpr std::size_t num_ego_parts = 12;
 template <class Real>
 struct ScaledEgo {
   std::array<Real, num_ego_parts> parts{};  ///< by EgoPart
-  /// How much of what lies beyond an edge matters: 1 within a lane's width, 0 where room is ample.
+  /// How much of what lies beyond an edge matters: 1 within a lane's width, 0 where it is far away.
   Real near_left = 0;
   Real near_right = 0;
   Real half_turn = 0;  ///< in units of its heading
