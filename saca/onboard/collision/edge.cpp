@@ -45,9 +45,9 @@ Vec2 nearest_to(Vec2 centre_W, const Footprint& footprint, const Pose& X_WB) {
 }
 
 /// Bounds from below of what is left to an edge: quickly found, and enough where the edge is far.
-class LeastRoom {
+class ClearanceBound {
  public:
-  LeastRoom(const Road& road, Side side, const Footprint& footprint)
+  ClearanceBound(const Road& road, Side side, const Footprint& footprint)
       : curvature_(road.curvature),
         origin_(road.X_WL.p),
         along_(rotated({1.0, 0.0}, road.X_WL.yaw)),
@@ -96,6 +96,41 @@ class LeastRoom {
   double reach_;
 };
 
+/// Whether a body on a track is so far from an edge that it need not be looked at closely.
+class TrackBounds {
+ public:
+  /// @param parts  looks from one pose of the track to the next; all of it outlives the bounds
+  TrackBounds(const ClearanceBound& least, const world::Track& track, int parts)
+      : least_(least), track_(track), parts_(parts) {}
+
+  /// All that is left of the way to the next pose is farther than the clearance.
+  bool is_far(int look, double clearance) {
+    const std::size_t pose = std::min(static_cast<std::size_t>(look / parts_), last_pose());
+    if (!bound_ || pose != bounded_) {
+      const bool goes_on = bound_ && pose == bounded_ + 1;
+      const Pose& here = track_.X_WA[pose];
+      const Pose& next = track_.X_WA[std::min(pose + 1, last_pose())];
+      const double now = goes_on ? before_ : least_.at(here);
+      before_ = least_.at(next);
+      bounded_ = pose;
+      bound_ = std::min(now, before_) - least_.between(here, next);
+    }
+    return *bound_ > clearance;
+  }
+  /// The last look before the next pose.
+  [[nodiscard]] int last_on_way(int look) const { return (look / parts_ + 1) * parts_ - 1; }
+
+ private:
+  [[nodiscard]] std::size_t last_pose() const { return track_.X_WA.size() - 1; }
+
+  const ClearanceBound& least_;
+  const world::Track& track_;
+  int parts_;
+  std::size_t bounded_ = 0;      ///< the pose whose way to the next is bounded
+  double before_ = 0.0;          ///< of the pose behind it
+  std::optional<double> bound_;  ///< all the way
+};
+
 }  // namespace
 
 Vec2 outermost(const Road& road, Side side, const Footprint& footprint, const Pose& X_WB) {
@@ -118,43 +153,27 @@ double edge_clearance(const Road& road, Side side, const Footprint& footprint, c
 EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footprint,
                            const world::Track& track, double of_interest, double from) {
   expects(!track.X_WA.empty() && track.step > 0.0, "a track has at least one pose");
-  const auto room_at = [&](double time) {
+  const auto clearance_at = [&](double time) {
     return edge_clearance(road, side, footprint, pose_at(track, time));
   };
   // Between poses 10 ms apart the clearance bends by less than v^2 k dt^2 / 8 < 0.3 mm.
   const int parts = std::max(1, static_cast<int>(std::ceil(track.step / 0.0101)));
   const int steps = parts * static_cast<int>(track.X_WA.size() - 1);
   const double step = track.step / parts;
-  const LeastRoom least(road, side, footprint);
-  std::size_t bounded = 0;  // the pose that `before` bounds
-  double before = 0.0;
-  std::optional<double> bound;  // from that pose to the next
-  const auto is_far = [&](int i, double edge_clearance) {
-    const std::size_t pose = std::min(static_cast<std::size_t>(i / parts), track.X_WA.size() - 1);
-    if (!bound || pose != bounded) {
-      const bool goes_on = bound && pose == bounded + 1;
-      const Pose& here = track.X_WA[pose];
-      const Pose& next = track.X_WA[std::min(pose + 1, track.X_WA.size() - 1)];
-      const double now = goes_on ? before : least.at(here);
-      before = least.at(next);
-      bounded = pose;
-      bound = std::min(now, before) - least.between(here, next);
-    }
-    return *bound > edge_clearance;
-  };
+  const ClearanceBound least(road, side, footprint);
+  TrackBounds bounds(least, track, parts);
   EdgeApproach found{.clearance = of_interest};
   const double begin = std::max(from, track.start);
   double inside = begin;
   const int first = static_cast<int>(std::min((begin - track.start) / step, double(steps)));
   for (int i = first; i <= steps; ++i) {
-    if (i > first && is_far(i, found.clearance)) {
-      i = std::min(steps,
-                   (i / parts + 1) * parts - 1);  // so is all that is left until the next pose
+    if (i > first && bounds.is_far(i, found.clearance)) {
+      i = std::min(steps, bounds.last_on_way(i));
       inside = track.start + i * step;
       continue;
     }
     const double time = i == first ? begin : track.start + i * step;
-    const double now = room_at(time);
+    const double now = clearance_at(time);
     if (now < found.clearance) {
       found.clearance = now;
       found.nearest_at = time;
@@ -166,7 +185,7 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
     double beyond = time;
     for (int k = 0; k < 30 && i > first; ++k) {
       const double middle = 0.5 * (inside + beyond);
-      (room_at(middle) > 0.0 ? inside : beyond) = middle;
+      (clearance_at(middle) > 0.0 ? inside : beyond) = middle;
     }
     found.crossing = beyond;
     return found;

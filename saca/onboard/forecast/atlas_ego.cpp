@@ -35,7 +35,7 @@ AtlasEgo::AtlasEgo(const atlas::AtlasPath& path, const world::Scene& scene) noex
   if (scene.grip_sd > 0.0) {
     const double off = scene.grip_sd / scene.grip;
     grip_shares_ = {-atlas::sensitivity_share(1.0 - off), atlas::sensitivity_share(1.0 + off)};
-    fill_sways();
+    fill_sensitivities();
   }
 }
 
@@ -60,15 +60,13 @@ void AtlasEgo::fill_directions() noexcept {
   }
 }
 
-void AtlasEgo::fill_samples() noexcept {
+AtlasEgo::PathSamples AtlasEgo::path_samples() const noexcept {
   const atlas::AtlasPath& path = *path_;
   const double per_second =
       path.span > 0.0 ? static_cast<double>(atlas_samples - 1) / path.span : 0.0;
   const bool goes_on = !path.rests && !path.ended;
-  SampleRow x{};  // along and across the lane, direction against it
-  SampleRow y{};
-  SampleRow cosine{};
-  SampleRow sine{};
+  PathSamples samples{};
+  auto& [x, y, cosine, sine] = samples;
   std::size_t k = 0;
   for (; k <= num_spans && (goes_on || sample_time(k) <= path.end); ++k) {
     const double place = std::min(sample_time(k) * per_second, atlas_samples - 1.001);
@@ -88,6 +86,11 @@ void AtlasEgo::fill_samples() noexcept {
     cosine[k] = end_cosine;
     sine[k] = end_sine;
   }
+  return samples;
+}
+
+void AtlasEgo::fill_samples() noexcept {
+  auto [x, y, cosine, sine] = path_samples();
   lane_x_.fill(static_cast<float>(along_.x));
   lane_y_.fill(static_cast<float>(along_.y));
   const Vec2 start_W = scene_->road.X_WL.p - scene_->ego.X_WB.p;
@@ -127,7 +130,7 @@ void AtlasEgo::lay_along_arc(SampleRow& x, SampleRow& y) noexcept {
   }
 }
 
-void AtlasEgo::fill_sways() noexcept {
+void AtlasEgo::fill_sensitivities() noexcept {
   const atlas::AtlasPath& path = *path_;
   for (const std::size_t c : {0U, 3U}) {
     float most = 0.0F;
@@ -136,7 +139,8 @@ void AtlasEgo::fill_sways() noexcept {
                                 path.sensitivity[c + 1][i] * path.sensitivity[c + 1][i]);
     }
     const double share = c == 0 ? grip_shares_.less : grip_shares_.more;
-    most_sway_ = std::max(most_sway_, share * std::sqrt(static_cast<double>(most)));
+    most_moved_by_grip_ =
+        std::max(most_moved_by_grip_, share * std::sqrt(static_cast<double>(most)));
   }
   constexpr double last = atlas::sensitivity_samples - 1;
   const double per_second = path.sensitivity_span > 0.0 ? last / path.sensitivity_span : 0.0;

@@ -49,7 +49,7 @@ class AtlasEgo {
   /// From where the ego is at the scene's time.
   [[nodiscard]] const PoseSamples& samples() const noexcept { return samples_; }
   /// The most that the grip's standard deviation moves it, at any time, on any side [m].
-  [[nodiscard]] double most_sway() const noexcept { return most_sway_; }
+  [[nodiscard]] double most_moved_by_grip() const noexcept { return most_moved_by_grip_; }
   /// Of the heading in the lane, at the samples of the path.
   struct SampleDirections {
     alignas(32) std::array<float, atlas::atlas_samples> cosine;
@@ -68,10 +68,19 @@ class AtlasEgo {
   }
 
  private:
+  /// Of the path, at the samples' times: along and across the lane, direction against it.
+  struct PathSamples {
+    SampleRow x;
+    SampleRow y;
+    SampleRow cosine;
+    SampleRow sine;
+  };
+
   void fill_directions() noexcept;
+  [[nodiscard]] PathSamples path_samples() const noexcept;
   void fill_samples() noexcept;
   void lay_along_arc(SampleRow& x, SampleRow& y) noexcept;
-  void fill_sways() noexcept;
+  void fill_sensitivities() noexcept;
   [[nodiscard]] atlas::AtlasInstant on_path(double time) const noexcept;
   [[nodiscard]] Vec2 lane_direction(double s) const noexcept;
 
@@ -82,7 +91,7 @@ class AtlasEgo {
   atlas::AtlasInstant at_end_;  // of the path
   double last_sample_ = 0.0;
   GripShares grip_shares_;
-  double most_sway_ = 0.0;
+  double most_moved_by_grip_ = 0.0;
   PoseSamples samples_;
   SensitivityAtSamples sensitivity_at_samples_{};
   SampleRow

@@ -172,19 +172,26 @@ std::array<float, num_groups> group_gaps(const PoseSamples& a, const PoseSamples
 
 namespace {
 
-[[gnu::always_inline]] inline void compare_all_samples(const PoseSamples& a, const PoseSamples& b,
-                                                       std::size_t first, std::size_t last,
-                                                       PairSamples& near) noexcept {
+// Samples from the begin of the first group to the end of the last.
+struct SampleRange {
+  std::size_t begin;
+  std::size_t end;
+};
+
+using PaddedRow = std::array<float, num_spans + 8>;
+
+// Along the axes of both boxes: how far apart the middles are, and how far both reach. `size` is
+// that of the way between the middles, about.
+[[gnu::always_inline]] inline void fill_axes_of_boxes(const PoseSamples& a, const PoseSamples& b,
+                                                      const SampleRange& range, PairSamples& near,
+                                                      PaddedRow& size) noexcept {
   const auto a_x = static_cast<float>(a.half.x);
   const auto a_y = static_cast<float>(a.half.y);
   const auto b_x = static_cast<float>(b.half.x);
   const auto b_y = static_cast<float>(b.half.y);
-  const std::size_t begin = first * spans_per_group;
-  const std::size_t end = (last + 1) * spans_per_group;
   auto& apart = near.apart;
   auto& reach = near.reach;
-  std::array<float, num_spans + 8> size;  // of the way between the middles, about
-  for (std::size_t k = begin; k < end + spans_per_group; ++k) {
+  for (std::size_t k = range.begin; k < range.end + spans_per_group; ++k) {
     const float x = b.x[k] - a.x[k];
     const float y = b.y[k] - a.y[k];
     const float c = std::abs(a.cosine[k] * b.cosine[k] + a.sine[k] * b.sine[k]);
@@ -199,7 +206,13 @@ namespace {
     reach[3][k] = b_y + a_x * s + a_y * c;
     size[k] = std::abs(x) + std::abs(y);
   }
-  for (std::size_t k = begin; k < end + spans_per_group; ++k) {
+}
+
+[[gnu::always_inline]] inline void fill_gaps(const PoseSamples& a, const PoseSamples& b,
+                                             const SampleRange& range, PairSamples& near) noexcept {
+  const auto& apart = near.apart;
+  const auto& reach = near.reach;
+  for (std::size_t k = range.begin; k < range.end + spans_per_group; ++k) {
     float gap = -1e30F;
     float x = 0.0F;
     float y = 0.0F;
@@ -211,8 +224,16 @@ namespace {
     near.n_x[k] = x;
     near.n_y[k] = y;
   }
+}
+
+// Bounds of the gap from one sample to the next.
+[[gnu::always_inline]] inline void bound_gaps(const PoseSamples& a, const PoseSamples& b,
+                                              const SampleRange& range, const PaddedRow& size,
+                                              PairSamples& near) noexcept {
+  const auto& apart = near.apart;
+  const auto& reach = near.reach;
   const auto corners = static_cast<float>(a.reach + b.reach);
-  for (std::size_t k = begin; k < end; ++k) {
+  for (std::size_t k = range.begin; k < range.end; ++k) {
     float least = -1e30F;
     for (std::size_t i = 0; i < 4; ++i) {
       least = std::max(least,
@@ -228,6 +249,16 @@ namespace {
     near.slack[k] = bulge + sway + 0.25F * turn * moved;
     near.least[k] = least - bulge - sway - 0.25F * turn * moved;
   }
+}
+
+[[gnu::always_inline]] inline void compare_all_samples(const PoseSamples& a, const PoseSamples& b,
+                                                       std::size_t first, std::size_t last,
+                                                       PairSamples& near) noexcept {
+  const SampleRange range{first * spans_per_group, (last + 1) * spans_per_group};
+  PaddedRow size;
+  fill_axes_of_boxes(a, b, range, near, size);
+  fill_gaps(a, b, range, near);
+  bound_gaps(a, b, range, size, near);
 }
 
 #if defined(__x86_64__)

@@ -69,6 +69,12 @@ AtlasRow sample_clearances(const AtlasEgo& ego, collision::Side side) noexcept {
   return clearances;
 }
 
+// What the clearance may be less than at the samples: an arc's bulge, and what lies between two.
+double sample_margin(const AtlasEgo& ego) noexcept {
+  const double reach = ego.samples().reach + std::abs(ego.scene().ego_footprint.centre_x);
+  return 0.05 + std::abs(ego.path().curvature) * reach * reach;
+}
+
 // What the grip's standard deviation adds towards one side, at the samples of the path's
 // sensitivity to friction.
 struct SideSensitivity {
@@ -129,11 +135,8 @@ ContactForecast edge_contact_forecast(const AtlasEgo& ego, collision::Side side,
   const atlas::AtlasPath& path = ego.path();
   const AtlasRow clearances = sample_clearances(ego, side);
   const SideSensitivity sensitivity = side_sensitivity(ego, side);
-  // An arc's bulge, and what lies between two samples.
-  const double reach = ego.samples().reach + std::abs(ego.scene().ego_footprint.centre_x);
-  const double margin = 0.05 + std::abs(path.curvature) * reach * reach;
   const auto matters =
-      static_cast<float>(margin + std::max(of_interest, sure_sd * sensitivity.most));
+      static_cast<float>(sample_margin(ego) + std::max(of_interest, sure_sd * sensitivity.most));
   if (*std::min_element(clearances.begin(), clearances.end()) > matters) {
     return found;
   }

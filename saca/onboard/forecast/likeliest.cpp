@@ -49,10 +49,17 @@ void fill_actor(const NarrowPhase& pair, const Range& range, ActorRows& actor) n
   }
 }
 
-[[gnu::always_inline]] inline void spread_along(const SampleRow& n_x, const SampleRow& n_y,
-                                                const SampleRow& apart, const NarrowPhase& pair,
+// Directions, and how far apart the middles are along them.
+struct AxisRows {
+  const SampleRow& n_x;
+  const SampleRow& n_y;
+  const SampleRow& apart;
+};
+
+[[gnu::always_inline]] inline void spread_along(const AxisRows& axis, const NarrowPhase& pair,
                                                 const ActorRows& actor, const Range& range,
                                                 SpreadRows& spread) noexcept {
+  const auto& [n_x, n_y, apart] = axis;
   const AtlasEgo::SensitivityAtSamples& sensitivity = pair.ego().sensitivity_at_samples();
   const PoseSamples& other = pair.samples();
   constexpr float mean_share = 0.3989423F;  // 1 / sqrt(2 pi), as in of_halves
@@ -80,12 +87,12 @@ void fill_actor(const NarrowPhase& pair, const Range& range, ActorRows& actor) n
   SampleRow left_x;  // of what samples along its length
   SpreadRows spread;
   if (axis % 2 == 0) {
-    spread_along(body.cosine, body.sine, apart, pair, actor, range, spread);
+    spread_along({body.cosine, body.sine, apart}, pair, actor, range, spread);
   } else {
     for (std::size_t k = range.begin; k < range.end; ++k) {
       left_x[k] = -body.sine[k];
     }
-    spread_along(left_x, body.cosine, apart, pair, actor, range, spread);
+    spread_along({left_x, body.cosine, apart}, pair, actor, range, spread);
   }
   for (std::size_t k = range.begin; k < range.end; ++k) {
     const float score = (std::abs(apart[k]) - reach[k] + spread.mean[k]) * spread.per_sd[k];
@@ -223,7 +230,43 @@ Valley valley_between(const End& low, const End& high, const Window& window) noe
   return least;
 }
 
-// PoseSamples where the lines of the scores meet lowest, and again between those samples.
+struct ValleyInSpan {
+  Valley valley;
+  std::size_t span = 0;
+};
+
+// The deepest of the spans whose bound is below `low`.
+ValleyInSpan deepest_valley(const NarrowPhase& pair, const Window& window, const PairSamples& near,
+                            const ScoreRows& rows, double low) noexcept {
+  ValleyInSpan deepest;
+  for (std::size_t k = window.begin(); k < window.end(); ++k) {
+    if (static_cast<double>(rows.bound[k]) < low) {
+      const Valley valley =
+          valley_between(end_at(pair, near, rows, k), end_at(pair, near, rows, k + 1), window);
+      deepest = valley.score < deepest.valley.score ? ValleyInSpan{valley, k} : deepest;
+    }
+  }
+  return deepest;
+}
+
+// Of all that were looked at, the one at which they most likely touch.
+struct LikeliestState {
+  const NarrowPhase& pair;
+  double best = std::numeric_limits<double>::infinity();  // its score
+  NarrowPhase::PairState passing;
+
+  NarrowPhase::Scores keep(double time) noexcept {
+    const NarrowPhase::PairState now = pair.state_at(time);
+    const NarrowPhase::Scores scores = pair.scores(now);
+    if (scores.most < best) {
+      best = scores.most;
+      passing = now;
+    }
+    return scores;
+  }
+};
+
+// Looks where the lines of the scores meet lowest, and again between what was looked at.
 template <class Keep>
 void look_into(const Window& window, End low, End high, Valley valley, const Keep& keep) noexcept {
   constexpr double close = 0.05;  // standard deviations
@@ -307,28 +350,12 @@ void find_likeliest(const NarrowPhase& pair, const Window& window, const PairSam
     found.touch = sample_time(likeliest);
     return;
   }
-  double best = std::numeric_limits<double>::infinity();
-  NarrowPhase::PairState passing;
-  const auto keep = [&](double time) {
-    const NarrowPhase::PairState now = pair.state_at(time);
-    const NarrowPhase::Scores scores = pair.scores(now);
-    if (scores.most < best) {
-      best = scores.most;
-      passing = now;
-    }
-    return scores;
-  };
-  Valley deepest;
-  std::size_t span = 0;
-  for (std::size_t k = window.begin(); k < window.end(); ++k) {
-    if (static_cast<double>(rows.bound[k]) < std::min(at_sample, sure_sd)) {
-      const Valley valley =
-          valley_between(end_at(pair, near, rows, k), end_at(pair, near, rows, k + 1), window);
-      span = valley.score < deepest.score ? k : span;
-      deepest = valley.score < deepest.score ? valley : deepest;
-    }
-  }
-  if (deepest.score < std::min(at_sample, sure_sd)) {
+  LikeliestState state{.pair = pair, .passing = {}};
+  const double& best = state.best;
+  const auto keep = [&](double time) { return state.keep(time); };
+  const double low = std::min(at_sample, sure_sd);
+  const auto [deepest, span] = deepest_valley(pair, window, near, rows, low);
+  if (deepest.score < low) {
     look_into(window, end_at(pair, near, rows, span), end_at(pair, near, rows, span + 1), deepest,
               keep);
   }
@@ -345,6 +372,7 @@ void find_likeliest(const NarrowPhase& pair, const Window& window, const PairSam
   if (found.contact) {
     return;
   }
+  const NarrowPhase::PairState& passing = state.passing;
   found.touch = passing.time;
   if (found.probability > negligible && best > 0.0 && passing.gap.size > 0.0) {
     find_touch(pair, passing, window.from, found);

@@ -96,7 +96,7 @@ world::Spread NarrowPhase::actor_spread(double time) const noexcept {
 }
 
 double NarrowPhase::sd_until(double time) const noexcept {
-  return largest(actor_spread(time)) + ego_->most_sway();
+  return largest(actor_spread(time)) + ego_->most_moved_by_grip();
 }
 
 Moments NarrowPhase::Doubt::nearer(Vec2 n) const noexcept {

@@ -108,42 +108,50 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
   if (num_previews_ == 0) {
     describe_scene(round, *threat);
   }
-  std::vector<std::size_t> fresh;       // not thought about as they are now
-  std::vector<std::size_t> unanswered;  // to be asked about
+  Pending pending = take_forecasts(round);
+  for (const std::size_t i : pending.fresh) {
+    tell_forecast(round, previews_[i]);
+    if (!consult_memory(round, previews_[i])) {
+      pending.unanswered.push_back(i);
+    }
+  }
+  publish(round.now());
+  if (tools_.model == nullptr) {
+    return true;
+  }
+  const std::vector<std::size_t> asked = in_time(round, pending.unanswered);
+  if (!asked.empty()) {
+    ask_model(round, asked);
+  } else if (!pending.unanswered.empty() && !pending.fresh.empty()) {
+    tell(round, EventKind::ask,
+         fmt::format("{:.2f} s to the trigger: too late to ask",
+                     time_left(round, previews_[pending.fresh.front()].newest_scene)));
+  }
+  return true;
+}
+
+ThinkingPlane::Pending ThinkingPlane::take_forecasts(const Round& round) {
+  Pending pending;
   std::vector<std::int32_t> now;
   for (preview::Situation& situation :
-       preview::situations(scene, beliefs, thresholds_, tools_.forecast)) {
+       preview::situations(round.scene, round.beliefs, thresholds_, tools_.forecast)) {
     if (situation.scene_at_trigger.time < round.now()) {
       continue;  // its trigger has passed while this was computed
     }
     const std::optional<std::size_t> known = provided_for(situation);
     if (!known) {
-      fresh.push_back(previews_.size());
       now.push_back(num_previews_);
+      pending.fresh.push_back(previews_.size());
       Preview preview;
       preview.number = num_previews_++;
       preview.newest_scene = situation.scene_at_trigger;
       preview.situation = std::move(situation);
       previews_.push_back(std::move(preview));
-      continue;
-    }
-    Preview& preview = previews_[*known];
-    if (std::find(now.begin(), now.end(), preview.number) != now.end()) {
-      continue;  // so like one that is likelier that the plan for that serves it too
-    }
-    now.push_back(preview.number);
-    preview.newest_scene = situation.scene_at_trigger;
-    if (refresh(round, preview, situation)) {
-      fresh.push_back(*known);
-      continue;
-    }
-    preview.worse_than_aeb =
-        preview.plan && !check(*preview.plan, situation, tools_.forecast).passed;
-    const bool never_asked = preview.prompt.empty() && !preview.plan;
-    if (preview.unheard || never_asked) {
-      preview.situation = std::move(situation);
-      unanswered.push_back(*known);
-    }
+    } else if (const std::int32_t number = previews_[*known].number;
+               std::find(now.begin(), now.end(), number) == now.end()) {
+      now.push_back(number);
+      update(round, *known, situation, pending);
+    }  // else so like one that is likelier that the plan for that serves it too
   }
   current_.insert(current_.begin(), now.begin(), now.end());
   for (std::size_t i = 0; i < current_.size(); ++i) {  // newest first, each once
@@ -151,35 +159,35 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
                                current_.end(), current_[i]),
                    current_.end());
   }
+  return pending;
+}
 
-  for (const std::size_t i : fresh) {
-    Preview& preview = previews_[i];
-    std::string combination;
-    for (std::size_t k = 0; k < scene.actors.size(); ++k) {
-      combination += fmt::format("{}{} {}", k == 0 ? "" : ", ", actor_name(scene.actors[k]),
-                                 name(preview.situation.intentions[k]));
-    }
-    tell(round, EventKind::forecast,
-         fmt::format("forecast {} ({:.0f} %): {}; trigger at {:.2f} s", preview.number + 1,
-                     100.0 * preview.situation.probability, combination,
-                     preview.situation.scene_at_trigger.time));
-    if (!consult_memory(round, preview)) {
-      unanswered.push_back(i);
-    }
+void ThinkingPlane::update(const Round& round, std::size_t known, preview::Situation& situation,
+                           Pending& pending) {
+  Preview& preview = previews_[known];
+  preview.newest_scene = situation.scene_at_trigger;
+  if (refresh(round, preview, situation)) {
+    pending.fresh.push_back(known);
+    return;
   }
-  publish(round.now());
-  if (tools_.model == nullptr) {
-    return true;
+  preview.worse_than_aeb = preview.plan && !check(*preview.plan, situation, tools_.forecast).passed;
+  const bool never_asked = preview.prompt.empty() && !preview.plan;
+  if (preview.unheard || never_asked) {
+    preview.situation = std::move(situation);
+    pending.unanswered.push_back(known);
   }
-  const std::vector<std::size_t> asked = in_time(round, unanswered);
-  if (!asked.empty()) {
-    ask_model(round, asked);
-  } else if (!unanswered.empty() && !fresh.empty()) {
-    tell(round, EventKind::ask,
-         fmt::format("{:.2f} s to the trigger: too late to ask",
-                     time_left(round, previews_[fresh.front()].newest_scene)));
+}
+
+void ThinkingPlane::tell_forecast(const Round& round, const Preview& preview) const {
+  std::string combination;
+  for (std::size_t k = 0; k < round.scene.actors.size(); ++k) {
+    combination += fmt::format("{}{} {}", k == 0 ? "" : ", ", actor_name(round.scene.actors[k]),
+                               name(preview.situation.intentions[k]));
   }
-  return true;
+  tell(round, EventKind::forecast,
+       fmt::format("forecast {} ({:.0f} %): {}; trigger at {:.2f} s", preview.number + 1,
+                   100.0 * preview.situation.probability, combination,
+                   preview.situation.scene_at_trigger.time));
 }
 
 void ThinkingPlane::forget() {

@@ -106,11 +106,23 @@ class ThinkingPlane {
     const std::vector<std::size_t>& which;  ///< indices into previews_
     double asked_at = 0.0;                  ///< [s]
   };
+  /// What a round has to find plans for: indices into previews_.
+  struct Pending {
+    std::vector<std::size_t> fresh;       ///< not thought about as they are now
+    std::vector<std::size_t> unanswered;  ///< to be asked about
+  };
 
   /// @return  whether anything was that was current
   bool forget_what_has_passed(double now);
   void tell(const Round& round, EventKind kind, std::string text) const;
   void describe_scene(const Round& round, const reflex::Threat& threat) const;
+  /// The likely situations at the trigger by this scene: each is a new preview, or brings the known
+  /// one that is like it up to date. They are current from then on.
+  Pending take_forecasts(const Round& round);
+  /// @param known  index into previews_ of what is like the situation, which is moved from
+  void update(const Round& round, std::size_t known, preview::Situation& situation,
+              Pending& pending);
+  void tell_forecast(const Round& round, const Preview& preview) const;
   /// The known forecast that is most like this one, if like enough: index into previews_.
   [[nodiscard]] std::optional<std::size_t> provided_for(const preview::Situation& situation) const;
   /// Takes over newer facts where they ask for another choice (`situation` is moved from): what was

@@ -8,11 +8,9 @@ namespace saca::language_model {
 constexpr const char* example_reasons =
     "1. NI hits truck1, harm 0.013.\n2. So AEB: it is clear by 0.6 m.\n";
 
-/// The paper's intersection at the trigger (Fig. 8) as a hand-filled forecast, for tests and
-/// benchmarks: poses from the figure; the facts are plausible, not computed.
-inline preview::Situation example_situation() {
-  preview::Situation situation;
-  world::Scene& scene = situation.scene_at_trigger;
+/// The paper's intersection at the trigger (Fig. 8): poses from the figure.
+inline world::Scene example_scene() {
+  world::Scene scene;
   scene.ego.v_B = {14.0, 0.0};
   scene.ego_footprint = {.length = 4.7, .width = 1.9, .centre_x = -0.1};
   scene.ego_mass = 1700.0;
@@ -32,7 +30,15 @@ inline preview::Situation example_situation() {
                       .mass = 75.0};
   walker.X_WA = {{6.0, 4.0}, 0.0};
   scene.actors.push_back(walker);
+  return scene;
+}
 
+/// The same as a forecast filled by hand, for tests and benchmarks: the facts are plausible, not
+/// computed.
+inline preview::Situation example_situation() {
+  preview::Situation situation;
+  situation.scene_at_trigger = example_scene();
+  const world::Scene& scene = situation.scene_at_trigger;
   situation.probability = 0.8;
   situation.intentions = {intent::Intention::maintain, intent::Intention::maintain};
   situation.posteriors = {{0.88, 0.02, 0.02, 0.04, 0.02, 0.02},

@@ -164,37 +164,49 @@ std::optional<Error> RecordingModel::write(const std::filesystem::path& path) co
   return write_file(path, json_text(recorded()));
 }
 
-Result<std::vector<Reply>> ReplayModel::reply_to(
-    const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
+/// What was recorded of the replies to some scenes.
+struct ReplayModel::Recalled {
   struct RecordedAnswer {
     std::size_t scene = 0;
-    Answer answer;
+    const Reply* reply = nullptr;  ///< that it is of
+    Answer answer;                 ///< at a time of this clock
   };
-  const Clock::Time begin = clock_.now();
-  std::vector<Reply> replies(scenes.size());
-  std::vector<RecordedAnswer> recorded_answers;
-  bool any_known = false;
+  std::vector<Reply> replies;           ///< still without what was answered
+  std::vector<RecordedAnswer> answers;  ///< before the deadline, in the order of time
+  bool any_known = false;               ///< one of the scenes was asked about
+};
+
+ReplayModel::Recalled ReplayModel::recall(const std::vector<std::string>& scenes, Clock::Time begin,
+                                          Clock::Time deadline, int sampling_seed) const {
+  Recalled recalled;
+  recalled.replies.resize(scenes.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const auto found = replies_.replies.find(prompt_key(scenes[i], options.sampling_seed));
+    const auto found = replies_.replies.find(prompt_key(scenes[i], sampling_seed));
     if (found == replies_.replies.end() || found->second.prompt != scenes[i]) {
       continue;
     }
-    any_known = true;
-    replies[i].prompt_tokens = found->second.reply.prompt_tokens;
-    for (Answer answer : found->second.reply.answers) {
+    const Reply& reply = found->second.reply;
+    recalled.any_known = true;
+    recalled.replies[i].prompt_tokens = reply.prompt_tokens;
+    for (Answer answer : reply.answers) {
       answer.time += begin;
       if (answer.time < deadline) {
-        recorded_answers.push_back({i, answer});
+        recalled.answers.push_back({i, &reply, answer});
       }
     }
   }
-  std::stable_sort(recorded_answers.begin(), recorded_answers.end(),
-                   [](const RecordedAnswer& a, const RecordedAnswer& b) {
-                     return a.answer.time < b.answer.time;
-                   });
+  std::stable_sort(recalled.answers.begin(), recalled.answers.end(),
+                   [](const auto& a, const auto& b) { return a.answer.time < b.answer.time; });
+  return recalled;
+}
+
+Result<std::vector<Reply>> ReplayModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const AskOptions& options) {
+  auto [replies, recorded_answers, any_known] =
+      recall(scenes, clock_.now(), deadline, options.sampling_seed);
   bool any_answer = false;
-  for (const RecordedAnswer& next : recorded_answers) {
+  for (const Recalled::RecordedAnswer& next : recorded_answers) {
     if (pace_ == ReplayPace::as_recorded) {
       clock_.wait_until_or_stop(next.answer.time, options.stop);
     }
@@ -203,10 +215,8 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
     }
     Reply& reply = replies[next.scene];
     if (next.answer.kind != Answer::Kind::first && reply.reasoning.empty()) {
-      const Reply& recorded =
-          replies_.replies.at(prompt_key(scenes[next.scene], options.sampling_seed)).reply;
-      reply.reasoning = recorded.reasoning;
-      reply.reply_tokens = recorded.reply_tokens;
+      reply.reasoning = next.reply->reasoning;
+      reply.reply_tokens = next.reply->reply_tokens;
       if (!reply.reasoning.empty()) {
         progress({.prompt = next.scene, .text = reply.reasoning, .answer = nullptr});
       }
@@ -216,7 +226,7 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
     progress({.prompt = next.scene, .text = {}, .answer = &reply.answers.back()});
   }
   if (any_answer) {
-    return replies;
+    return std::move(replies);
   }
   return any_known ? Error{Error::Code::too_late, "replay: the recorded answers come too late"}
                    : Error{Error::Code::unreadable,

@@ -75,6 +75,10 @@ class ReplayModel final : public LanguageModel {
   [[nodiscard]] std::string description() const override { return description_; }
 
  private:
+  struct Recalled;
+  /// What answers these scenes between two instants of the clock.
+  [[nodiscard]] Recalled recall(const std::vector<std::string>& scenes, Clock::Time begin,
+                                Clock::Time deadline, int sampling_seed) const;
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
       const std::function<void(const Progress&)>& progress, const AskOptions& options) override;

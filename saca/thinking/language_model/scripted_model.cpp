@@ -16,6 +16,38 @@ Answer answer_of(const ScriptedLine& line, Clock::Time time) {
   return answer;
 }
 
+/// What is said in time.
+struct Said {
+  std::vector<Reply> replies;                               ///< still without it
+  std::vector<std::pair<std::size_t, ScriptedLine>> lines;  ///< of all scenes, by their times
+  bool cut = false;                                         ///< there was more, too late
+};
+
+/// @param left  the time that there is
+Result<Said> said_in_time(const ScriptedModel::Script& script,
+                          const std::vector<std::string>& scenes, Clock::Time left) {
+  Said said;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const ScriptedReply reply = script(scenes[i]);
+    if (reply.error) {
+      return *reply.error;
+    }
+    said.replies.push_back(
+        {.prompt_tokens = reply.prompt_tokens, .reply_tokens = reply.reply_tokens});
+    said.cut = said.cut || reply.lines.empty();
+    for (const ScriptedLine& line : reply.lines) {
+      if (line.after < left) {
+        said.lines.emplace_back(i, line);
+      } else {
+        said.cut = true;
+      }
+    }
+  }
+  std::stable_sort(said.lines.begin(), said.lines.end(),
+                   [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
+  return said;
+}
+
 }  // namespace
 
 Result<std::vector<Reply>> ScriptedModel::reply_to(
@@ -26,26 +58,11 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
   last_grammars_ = options.grammars;
   last_deadline_ = deadline;
   const Clock::Time begin = clock_.now();
-  std::vector<Reply> replies;
-  std::vector<std::pair<std::size_t, ScriptedLine>> lines;  // of all scenes, by their times
-  bool cut = false;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const ScriptedReply said = script_(scenes[i]);
-    if (said.error) {
-      return *said.error;
-    }
-    replies.push_back({.prompt_tokens = said.prompt_tokens, .reply_tokens = said.reply_tokens});
-    cut = cut || said.lines.empty();
-    for (const ScriptedLine& line : said.lines) {
-      if (begin + line.after < deadline - way_back) {
-        lines.emplace_back(i, line);
-      } else {
-        cut = true;
-      }
-    }
+  auto said = said_in_time(script_, scenes, deadline - way_back - begin);
+  if (!said.has_value()) {
+    return said.error();
   }
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
+  auto [replies, lines, cut] = std::move(said).value();
   bool any = false;
   for (const auto& [scene, line] : lines) {
     clock_.wait_until_or_stop(begin + line.after, options.stop);
@@ -69,7 +86,7 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
   if (!any) {
     return Error{Error::Code::too_late, "script: no answer in time"};
   }
-  return replies;
+  return std::move(replies);
 }
 
 }  // namespace saca::language_model

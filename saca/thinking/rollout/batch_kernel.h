@@ -247,6 +247,37 @@ inline void move_body(const vehicle::equations::StateVector<T>& state_vector,
   }
 }
 
+/// What the sensors tell: the acceleration of 1 ms ago.
+/// @param force  that acts now
+template <Kind kind, class T, class Mask>
+inline Pair<T> sensed_acceleration(const FixedLane<T>& fixed, const Pair<T>& force,
+                                   const Mask& first, MovingLane<T>& moving) {
+  const Pair<T> a{force.x / fixed.real.mass, force.y / fixed.real.mass};
+  constexpr double ago = 1.0 - newer(step_of(kind));
+  const Pair<T> sensed{select(first, moving.ax, a.x + ago * (moving.ax - a.x)),
+                       select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
+  moving.ax = a.x;
+  moving.ay = a.y;
+  return sensed;
+}
+
+/// What the actuators are told, within their limits, before the brake line.
+template <Kind kind, class T, class Mask>
+inline ActuatorCommand<T> command_of(const FixedLane<T>& fixed, const Pair<T>& sensed_a,
+                                     const Turn<T>& heading, const Mask& first,
+                                     MovingLane<T>& moving) {
+  ActuatorCommand<T> command = control<kind, T>(fixed, seen<T>(moving.state_vector, sensed_a),
+                                                moving.state_vector, heading, moving.memory);
+  command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
+  command.motor_torque =
+      clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
+  // As with the brakes (hold): what will be told in the step's middle.
+  const T turned = command.steering - moving.command_steering;
+  moving.command_steering = command.steering;
+  command.steering = command.steering + select(first, T(0.0), newer(step_of(kind)) * turned);
+  return command;
+}
+
 /// @param now    counts steps: where the brake line is written
 /// @param late   brakes' dead time in steps
 template <Kind kind, class T>
@@ -274,23 +305,9 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   }
   vehicle::equations::load_rates<T>(fixed.real, state_vector, force, rate);
 
-  // Sensors tell the acceleration of 1 ms ago.
   const auto first = moving.first > 0.5;
-  const Pair<T> a{force.x / fixed.real.mass, force.y / fixed.real.mass};
-  constexpr double ago = 1.0 - newer(step_of(kind));
-  const Pair<T> sensed_a{select(first, moving.ax, a.x + ago * (moving.ax - a.x)),
-                         select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
-  moving.ax = a.x;
-  moving.ay = a.y;
-  ActuatorCommand<T> command = control<kind, T>(fixed, seen<T>(state_vector, sensed_a),
-                                                state_vector, heading, moving.memory);
-  command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
-  command.motor_torque =
-      clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
-  // Likewise for the steering, which follows at once: what will be told in the step's middle.
-  const T turned = command.steering - moving.command_steering;
-  moving.command_steering = command.steering;
-  command.steering = command.steering + select(first, T(0.0), newer(step_of(kind)) * turned);
+  const Pair<T> sensed_a = sensed_acceleration<kind>(fixed, force, first, moving);
+  ActuatorCommand<T> command = command_of<kind>(fixed, sensed_a, heading, first, moving);
   hold<kind>(moving, now, command.brake_torque, first);
   command.brake_torque = delayed<T>(fixed, moving, now, late);
 
