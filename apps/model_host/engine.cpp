@@ -518,6 +518,20 @@ struct Engine::State {
     is_cancelled = nullptr;
     return figures;
   }
+
+  // Warms the caches up, and tells what a step of so many scenes and an answer cost, before time
+  // matters.
+  std::optional<Error> rehearse(std::size_t count, Clock& its_clock) {
+    const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
+                              [](std::size_t, AnswerKind, const std::vector<double>&) {}};
+    auto rehearsed =
+        tasks(std::vector<std::string>(count, "Ready?"), {.max_tokens = rehearsed_tokens});
+    if (!rehearsed.has_value()) {
+      return rehearsed.error();
+    }
+    think(std::move(rehearsed).value(), Clock::Time::max(), rehearsed_tokens, its_clock, nobody);
+    return std::nullopt;
+  }
 };
 
 Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -603,27 +617,14 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
     llama_memory_seq_cp(s.memory(), sequence(0), sequence(scene), -1, -1);
   }
   s.system_tokens = static_cast<llama_pos>(tokens.size());
-  // Warms the caches up, and tells what a step and an answer cost before time matters.
-  const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
-                            [](std::size_t, AnswerKind, const std::vector<double>&) {}};
-  const std::vector<std::string> scenes(max_scenes, "Ready?");
-  const auto rehearse = [&](std::size_t count) -> std::optional<Error> {
-    auto tasks = s.tasks({scenes.begin(), scenes.begin() + static_cast<std::ptrdiff_t>(count)},
-                         {.max_tokens = rehearsed_tokens});
-    if (!tasks.has_value()) {
-      return tasks.error();
-    }
-    s.think(std::move(tasks).value(), Clock::Time::max(), rehearsed_tokens, clock, nobody);
-    return std::nullopt;
-  };
   for (std::size_t count = 1; s.threads.gives_way() && count <= max_scenes; ++count) {
     s.threads.take_one();
-    if (const auto problem = rehearse(count)) {
+    if (const auto problem = s.rehearse(count, clock)) {
       return *problem;
     }
   }
   s.threads.take_all();
-  if (const auto problem = rehearse(max_scenes)) {
+  if (const auto problem = s.rehearse(max_scenes, clock)) {
     return *problem;
   }
   return static_cast<int>(tokens.size());

@@ -159,24 +159,32 @@ std::optional<Error> add_traffic(const Options& options, const World& world, Dat
   return std::nullopt;
 }
 
+Result<Data> read_data(const Options& options, const World& world) {
+  Data data;
+  for (const char* const suite : {"balanced", "natural"}) {
+    if (auto problem = add_suite(suite, options, world, data)) {
+      return *std::move(problem);
+    }
+  }
+  if (!options.data.empty()) {
+    if (auto problem = add_traffic(options, world, data)) {
+      return *std::move(problem);
+    }
+  }
+  return data;
+}
+
 int train_places(const Options& options) {
   const auto world = read_world(options.root);
   if (!world.has_value()) {
     return train_program::failed(program, world.error());
   }
-  Data data;
-  for (const char* const suite : {"balanced", "natural"}) {
-    if (const auto problem = add_suite(suite, options, world.value(), data)) {
-      return train_program::failed(program, *problem);
-    }
+  const auto data = read_data(options, world.value());
+  if (!data.has_value()) {
+    return train_program::failed(program, data.error());
   }
-  if (!options.data.empty()) {
-    if (const auto problem = add_traffic(options, world.value(), data)) {
-      return train_program::failed(program, *problem);
-    }
-  }
-  const auto pieces = network_training::place_pieces(data.training, options.longest);
-  const auto held_out = network_training::place_pieces(data.held_out, options.longest);
+  const auto pieces = network_training::place_pieces(data.value().training, options.longest);
+  const auto held_out = network_training::place_pieces(data.value().held_out, options.longest);
   fmt::print("{} pieces to train with, {} held out\n", pieces.size(), held_out.size());
   std::fflush(stdout);
   if (pieces.empty()) {

@@ -12,14 +12,8 @@ namespace {
 constexpr auto review_patience = std::chrono::minutes(2);
 constexpr int review_tokens = 256;  // three statements with their figures are about 130
 
-}  // namespace
-
-Result<std::optional<language_model::Review>> review(
-    const Setup& setup, const Record& record, const std::function<void(std::string_view)>& on_text,
-    const std::stop_token& stop) {
-  if (setup.model == nullptr || !record.decision || !record.hindsight || !record.best) {
-    return std::optional<language_model::Review>();
-  }
+/// @param record  of an encounter that was decided, and judged afterwards
+language_model::Aftermath aftermath_of(const Record& record) {
   language_model::Aftermath aftermath{.done = record.decision->plan,
                                       .result = record.result,
                                       .met = record.met,
@@ -35,6 +29,18 @@ Result<std::optional<language_model::Review>> review(
     const auto* const judged = find_plan(*record.decision->verdict, record.decision->plan);
     aftermath.forecast_harm = judged == nullptr ? std::nullopt : std::optional(judged->harm);
   }
+  return aftermath;
+}
+
+}  // namespace
+
+Result<std::optional<language_model::Review>> review(
+    const Setup& setup, const Record& record, const std::function<void(std::string_view)>& on_text,
+    const std::stop_token& stop) {
+  if (setup.model == nullptr || !record.decision || !record.hindsight || !record.best) {
+    return std::optional<language_model::Review>();
+  }
+  const language_model::Aftermath aftermath = aftermath_of(record);
   language_model::Review review{.prompt = language_model::review_prompt(aftermath)};
   const auto hear = [&](const language_model::Progress& news) {
     if (!news.text.empty()) {

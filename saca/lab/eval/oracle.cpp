@@ -79,60 +79,79 @@ collision::Outcome on_average(const std::vector<collision::Outcome>& outcomes) {
   return mean;
 }
 
+/// All plans, what they end in, and which of them stands for its policy.
+struct Compared {
+  std::vector<encounter::Hindsight> written;              // with nothing left to chance
+  std::vector<std::vector<collision::Outcome>> by_draws;  // of each plan
+  Tried average;                                          // without draws: as written
+  std::array<std::optional<std::size_t>, num_policies> stands;
+
+  [[nodiscard]] std::size_t plan_of(PolicyId policy) const {
+    return *stands[manoeuvre::index(policy)];
+  }
+};
+
+Compared compared(std::vector<encounter::Hindsight> written, const std::vector<Tried>& draws) {
+  Compared plans{.written = std::move(written), .by_draws = {}, .average = {}, .stands = {}};
+  plans.by_draws.resize(plans.written.size());
+  plans.average = outcomes_of(plans.written);
+  for (std::size_t i = 0; i < plans.written.size(); ++i) {
+    const preview::PolicyFacts& facts = plans.written[i].facts;
+    std::optional<std::size_t>& of_policy = plans.stands[manoeuvre::index(facts.plan.policy)];
+    if (!facts.drivable()) {
+      of_policy = of_policy.value_or(i);
+      continue;
+    }
+    for (const Tried& draw : draws) {
+      plans.by_draws[i].push_back(draw[i]);
+    }
+    if (!draws.empty()) {
+      plans.average[i] = on_average(plans.by_draws[i]);
+    }
+    if (!of_policy || !plans.written[*of_policy].facts.drivable() ||
+        collision::harm_class(plans.average[i].harm) <
+            collision::harm_class(plans.average[*of_policy].harm)) {
+      of_policy = i;
+    }
+  }
+  return plans;
+}
+
 }  // namespace
 
 Oracle oracle(const scenario::Scenario& scenario, const manoeuvre::Car& car,
               const collision::HarmModel& harm, const OracleOptions& options) {
   expects(options.draws == 0 || options.draws >= 2, "draws is 0, or 2 at least");
   expects(options.threads >= 1, "threads >= 1");
-  Oracle told;
   const DecisionPoint point = decision_point_at(scenario, car, options.time);
+  const Compared plans = compared(std::move(tried_of({&point, 1}, car, harm, options).front()),
+                                  all_draws(scenario, car, harm, options));
+  const bool is_sure = options.draws == 0;
+  Oracle told;
   told.scene = point.scene;
-  const std::vector<encounter::Hindsight> written =
-      std::move(tried_of({&point, 1}, car, harm, options).front());
-  const Tried as_written = outcomes_of(written);
-  const std::vector<Tried> draws = all_draws(scenario, car, harm, options);
-  std::vector<std::vector<collision::Outcome>> outcomes(written.size());  // of a plan, by draws
-  Tried average = as_written;
-  std::array<std::optional<std::size_t>, num_policies> stands;  // which plan for its policy
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    std::optional<std::size_t>& of_policy = stands[manoeuvre::index(written[i].facts.plan.policy)];
-    if (!written[i].facts.drivable()) {
-      of_policy = of_policy.value_or(i);
-      continue;
-    }
-    for (const Tried& draw : draws) {
-      outcomes[i].push_back(draw[i]);
-    }
-    if (!draws.empty()) {
-      average[i] = on_average(outcomes[i]);
-    }
-    if (!of_policy || !written[*of_policy].facts.drivable() ||
-        collision::harm_class(average[i].harm) < collision::harm_class(average[*of_policy].harm)) {
-      of_policy = i;
-    }
-  }
-  const auto plan_of = [&](PolicyId policy) { return *stands[manoeuvre::index(policy)]; };
   for (const PolicyId policy : manoeuvre::all_policies) {
-    const std::size_t plan = plan_of(policy);
+    const std::size_t plan = plans.plan_of(policy);
     Verdict& verdict = told.verdicts[manoeuvre::index(policy)];
-    verdict.written = written[plan];
+    verdict.written = plans.written[plan];
     if (verdict.written.facts.drivable()) {
       verdict.expected =
-          draws.empty() ? sure(as_written[plan]) : forecast::expected(outcomes[plan]);
+          is_sure ? sure(plans.average[plan]) : forecast::expected(plans.by_draws[plan]);
       told.ranking.push_back(policy);
     }
   }
+  const auto average = [&](PolicyId policy) -> const collision::Outcome& {
+    return plans.average[plans.plan_of(policy)];
+  };
   std::sort(told.ranking.begin(), told.ranking.end(), [&](PolicyId a, PolicyId b) {
-    return collision::better(average[plan_of(a)], a, average[plan_of(b)], b);
+    return collision::better(average(a), a, average(b), b);
   });
-  const std::size_t best = plan_of(told.best());
+  const PolicyId best = told.best();
   for (const PolicyId policy : told.ranking) {
-    const std::size_t plan = plan_of(policy);
-    const double more = average[plan].harm - average[best].harm;
+    const double more = average(policy).harm - average(best).harm;
     told.verdicts[manoeuvre::index(policy)].behind =
-        draws.empty() ? forecast::Mean{more, more, more}
-                      : forecast::harm_difference(outcomes[plan], outcomes[best]);
+        is_sure ? forecast::Mean{more, more, more}
+                : forecast::harm_difference(plans.by_draws[plans.plan_of(policy)],
+                                            plans.by_draws[plans.plan_of(best)]);
   }
   return told;
 }

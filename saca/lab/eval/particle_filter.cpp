@@ -298,18 +298,12 @@ bool ParticleFilter::is_gathered(const RoadUser& watched) {
   return squares * num_particles >= 2.0;  // they count for half of their number or less
 }
 
-void ParticleFilter::resample(RoadUser& watched, const std::vector<Particle>& fresh) const {
-  constexpr double jitter = 0.05;        // of the logarithm of a parameter
-  constexpr double aside_jitter = 0.05;  // [m]
-  constexpr double place_jitter = 0.03;  // [m]
-  constexpr double speed_jitter = 0.03;  // [m/s]
-  std::mt19937_64& rng = watched.rng;
-  const std::size_t count = num_particles - fresh.size();
-  const double each_weight = 1.0 / num_particles;
+std::vector<ParticleFilter::Particle> ParticleFilter::systematic_draws(RoadUser& watched,
+                                                                       std::size_t count) {
   std::vector<Particle> chosen;
   chosen.reserve(num_particles);
   const double step_of_sum = 1.0 / static_cast<double>(count);
-  const double first = uniform(rng) * step_of_sum;
+  const double first = uniform(watched.rng) * step_of_sum;
   double sum = 0.0;
   for (const Particle& one : watched.particles) {
     sum += one.weight;
@@ -321,27 +315,41 @@ void ParticleFilter::resample(RoadUser& watched, const std::vector<Particle>& fr
   while (chosen.size() < count) {  // rounding
     chosen.push_back(watched.particles.back());
   }
+  return chosen;
+}
+
+void ParticleFilter::disperse(Particle& one, std::mt19937_64& rng) {
+  constexpr double jitter = 0.05;        // of the logarithm of a parameter
+  constexpr double aside_jitter = 0.05;  // [m]
+  constexpr double place_jitter = 0.03;  // [m]
+  constexpr double speed_jitter = 0.03;  // [m/s]
+  for (double* each : {&one.law.desired_speed, &one.law.time_gap, &one.law.least_gap,
+                       &one.law.acceleration, &one.law.comfortable, &one.braking}) {
+    *each *= std::exp(jitter * normal(rng));
+  }
+  if (one.aside != 0.0) {
+    const double here = one.d();
+    const double share = one.aside_since / one.aside_takes;
+    one.aside += aside_jitter * normal(rng);
+    one.aside_takes *= std::exp(jitter * normal(rng));
+    one.aside_since = share * one.aside_takes;
+    one.keeps += here - one.d();
+  }
+  const Vec2 moved{place_jitter * normal(rng), place_jitter * normal(rng)};
+  one.s += moved.x;
+  one.keeps += moved.y;
+  one.place_error = one.place_error - moved;
+  const double faster = std::max(-one.speed, speed_jitter * normal(rng));
+  one.speed += faster;
+  one.speed_error.x -= faster;
+}
+
+void ParticleFilter::resample(RoadUser& watched, const std::vector<Particle>& fresh) {
+  const double each_weight = 1.0 / num_particles;
+  std::vector<Particle> chosen = systematic_draws(watched, num_particles - fresh.size());
   for (Particle& one : chosen) {
     one.weight = each_weight;
-    for (double* each : {&one.law.desired_speed, &one.law.time_gap, &one.law.least_gap,
-                         &one.law.acceleration, &one.law.comfortable, &one.braking}) {
-      *each *= std::exp(jitter * normal(rng));
-    }
-    if (one.aside != 0.0) {
-      const double here = one.d();
-      const double share = one.aside_since / one.aside_takes;
-      one.aside += aside_jitter * normal(rng);
-      one.aside_takes *= std::exp(jitter * normal(rng));
-      one.aside_since = share * one.aside_takes;
-      one.keeps += here - one.d();
-    }
-    const Vec2 moved{place_jitter * normal(rng), place_jitter * normal(rng)};
-    one.s += moved.x;
-    one.keeps += moved.y;
-    one.place_error = one.place_error - moved;
-    const double faster = std::max(-one.speed, speed_jitter * normal(rng));
-    one.speed += faster;
-    one.speed_error.x -= faster;
+    disperse(one, watched.rng);
   }
   for (Particle one : fresh) {
     one.weight *= static_cast<double>(fresh.size()) * each_weight;

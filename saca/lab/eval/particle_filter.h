@@ -164,7 +164,11 @@ class ParticleFilter {
   /// Have the weights gathered on few particles?
   [[nodiscard]] static bool is_gathered(const RoadUser& watched);
   /// @param fresh  as at_sight: they take the place of as many
-  void resample(RoadUser& watched, const std::vector<Particle>& fresh) const;
+  /// So many of its particles, each as often as its weight says (systematic resampling).
+  static std::vector<Particle> systematic_draws(RoadUser& watched, std::size_t count);
+  /// Moves one a little, so that those drawn several times differ.
+  static void disperse(Particle& one, std::mt19937_64& rng);
+  static void resample(RoadUser& watched, const std::vector<Particle>& fresh);
 
   scenario::PerceptionModel errors_;
   std::uint64_t seed_;

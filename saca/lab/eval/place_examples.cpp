@@ -45,22 +45,32 @@ void add_places(const encounter::Stage& stage, const ForecastWindow& window,
   example.known = true;
 }
 
-}  // namespace
-
-Result<std::vector<std::vector<PlaceExample>>> place_examples(const encounter::Stage& stage,
-                                                              const ForecastWindow& window) {
-  constexpr int steps_per_look = 10;  // of the loop: 0.1 s
+/// All of an encounter in which nothing is done.
+Result<std::vector<SeenAndTrue>> looks_at(const encounter::Stage& stage) {
+  constexpr int steps_apart = 10;  // of the loop: 0.1 s
   std::vector<SeenAndTrue> looks;
   encounter::ClosedLoop loop(stage);
   for (int k = 0; !loop.truth().over(); ++k) {
     if (auto problem = loop.look()) {
       return *std::move(problem);
     }
-    if (k % steps_per_look == 0) {
+    if (k % steps_apart == 0) {
       looks.push_back({loop.seen(), loop.truth().whole_scene()});
     }
     loop.advance();
   }
+  return looks;
+}
+
+}  // namespace
+
+Result<std::vector<std::vector<PlaceExample>>> place_examples(const encounter::Stage& stage,
+                                                              const ForecastWindow& window) {
+  const auto played = looks_at(stage);
+  if (!played.has_value()) {
+    return played.error();
+  }
+  const std::vector<SeenAndTrue>& looks = played.value();
   struct RoadUser {
     intent::ObservationHistory memory;
     std::size_t last = 0;

@@ -136,80 +136,102 @@ std::optional<double> happened(const Comparison& comparison, const manoeuvre::Pl
   return tried == nullptr ? std::nullopt : tried->harm;
 }
 
-MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
-                         std::size_t method, std::optional<std::size_t> aeb,
-                         const Bootstrap& bootstrap) {
-  const auto mean = [&](const Measure measure) {
+using Row = const SuiteRow&;
+using Aeb = std::optional<std::size_t>;
+
+/// One method's rows, of which means are taken.
+struct MethodRows {
+  std::span<const SuiteRow* const> rows;
+  std::size_t method;
+  Aeb aeb;
+  const Bootstrap& bootstrap;
+
+  [[nodiscard]] Estimate mean(Measure measure) const {
     std::vector<std::optional<double>> values;
     for (const SuiteRow* const row : rows) {
       values.push_back(measure(*row, method, aeb));
     }
     return bootstrap.mean(values);
-  };
-  MethodFigures figures{.method = name};
-  using Row = const SuiteRow&;
-  using Aeb = std::optional<std::size_t>;
+  }
+};
+
+void fill_harms(const MethodRows& of, MethodFigures& figures) {
   figures.harm =
-      mean([](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
-  figures.regret = mean([](Row row, std::size_t m, Aeb) {
+      of.mean([](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
+  figures.regret = of.mean([](Row row, std::size_t m, Aeb) {
     return std::optional(run_of(row, m).harm - row.risk.best_harm);
   });
-  figures.published_regret = mean([](Row row, std::size_t m, Aeb) {
+  figures.published_regret = of.mean([](Row row, std::size_t m, Aeb) {
     return std::optional(run_of(row, m).harm - row.risk.published_best_harm);
   });
-  figures.over_aeb = mean(over_aeb);
-  figures.collision_loss = mean(
+  figures.over_aeb = of.mean(over_aeb);
+  figures.collision_loss = of.mean(
       [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });
+}
+
+void fill_shares(const MethodRows& of, MethodFigures& figures) {
   figures.contact =
-      mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
-  figures.right = mean([](Row row, std::size_t m, Aeb) {
+      of.mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
+  figures.right = of.mean([](Row row, std::size_t m, Aeb) {
     return flag(collision::harm_class(run_of(row, m).harm) <=
                 collision::harm_class(row.risk.best_harm));
   });
-  figures.worse_than_aeb = mean([](Row row, std::size_t m, Aeb reference) {
+  figures.worse_than_aeb = of.mean([](Row row, std::size_t m, Aeb reference) {
     const auto more = over_aeb(row, m, reference);
     return more ? flag(*more > material) : std::nullopt;
   });
-  figures.needless = mean([](Row row, std::size_t m, Aeb) {
+  figures.needless = of.mean([](Row row, std::size_t m, Aeb) {
     return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
   });
-  figures.switches = mean([](Row row, std::size_t m, Aeb) {
+  figures.switches = of.mean([](Row row, std::size_t m, Aeb) {
     return std::optional(static_cast<double>(run_of(row, m).switches));
   });
-  const bool decides = std::any_of(rows.begin(), rows.end(), [&](const SuiteRow* row) {
-    return expected_at_trigger(*row, method) != nullptr;
+}
+
+/// nullopt: nothing was decided by verdicts.
+std::optional<ExpectedFigures> expected_figures(const MethodRows& of) {
+  const bool decides = std::any_of(of.rows.begin(), of.rows.end(), [&](const SuiteRow* row) {
+    return expected_at_trigger(*row, of.method) != nullptr;
   });
-  if (decides) {
-    figures.expected.emplace();
-    figures.expected->expected = mean(expectation<&encounter::ExpectedAtDecision::harm>);
-    figures.expected->happened = mean([](Row row, std::size_t m, Aeb) {
-      const auto* const told = expected_at_trigger(row, m);
-      return told != nullptr ? happened(row.risk, told->plan) : std::nullopt;
-    });
-    figures.expected->braking_expected =
-        mean(expectation<&encounter::ExpectedAtDecision::braking_harm>);
-    figures.expected->braking_happened = mean([](Row row, std::size_t m, Aeb) {
-      return expected_at_trigger(row, m) != nullptr ? happened(row.risk, manoeuvre::full_braking)
-                                                    : std::nullopt;
-    });
-    figures.expected->knowingly_worse = mean([](Row row, std::size_t m, Aeb) {
-      const auto* const told = expected_at_trigger(row, m);
-      return told != nullptr ? flag(told->harm > told->braking_harm + material) : std::nullopt;
-    });
-    figures.expected->several = mean(had_several);
+  if (!decides) {
+    return std::nullopt;
   }
-  const bool twins = std::any_of(rows.begin(), rows.end(),
+  ExpectedFigures figures;
+  figures.expected = of.mean(expectation<&encounter::ExpectedAtDecision::harm>);
+  figures.happened = of.mean([](Row row, std::size_t m, Aeb) {
+    const auto* const told = expected_at_trigger(row, m);
+    return told != nullptr ? happened(row.risk, told->plan) : std::nullopt;
+  });
+  figures.braking_expected = of.mean(expectation<&encounter::ExpectedAtDecision::braking_harm>);
+  figures.braking_happened = of.mean([](Row row, std::size_t m, Aeb) {
+    return expected_at_trigger(row, m) != nullptr ? happened(row.risk, manoeuvre::full_braking)
+                                                  : std::nullopt;
+  });
+  figures.knowingly_worse = of.mean([](Row row, std::size_t m, Aeb) {
+    const auto* const told = expected_at_trigger(row, m);
+    return told != nullptr ? flag(told->harm > told->braking_harm + material) : std::nullopt;
+  });
+  figures.several = of.mean(had_several);
+  return figures;
+}
+
+void fill_twins(const MethodRows& of, MethodFigures& figures) {
+  const bool twins = std::any_of(of.rows.begin(), of.rows.end(),
                                  [](const SuiteRow* row) { return row->twin.has_value(); });
-  if (twins) {
-    figures.false_trigger_loss = mean([](Row row, std::size_t m, Aeb) {
-      return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
-    });
-    figures.false_triggers = mean([](Row row, std::size_t m, Aeb) {
-      return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
-    });
+  if (!twins) {
+    return;
   }
-  for (const SuiteRow* const row : rows) {
-    const MethodRun& run = run_of(*row, method);
+  figures.false_trigger_loss = of.mean([](Row row, std::size_t m, Aeb) {
+    return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
+  });
+  figures.false_triggers = of.mean([](Row row, std::size_t m, Aeb) {
+    return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
+  });
+}
+
+void count_decisions(const MethodRows& of, MethodFigures& figures) {
+  for (const SuiteRow* const row : of.rows) {
+    const MethodRun& run = run_of(*row, of.method);
     figures.faults += run.fault.empty() ? 0 : 1;
     if (run.plan) {
       ++figures.sources[run.source];
@@ -219,6 +241,15 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
       add(figures.thinking, *run.thinking);
     }
   }
+}
+
+MethodFigures figures_of(const MethodRows& of, const std::string& name) {
+  MethodFigures figures{.method = name};
+  fill_harms(of, figures);
+  fill_shares(of, figures);
+  figures.expected = expected_figures(of);
+  fill_twins(of, figures);
+  count_decisions(of, figures);
   return figures;
 }
 
@@ -243,7 +274,7 @@ std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
   }
   const Bootstrap bootstrap(good.size(), seed);
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    all.push_back(figures_of(good, methods[m], m, aeb, bootstrap));
+    all.push_back(figures_of({good, m, aeb, bootstrap}, methods[m]));
   }
   return all;
 }

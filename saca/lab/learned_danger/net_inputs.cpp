@@ -67,79 +67,128 @@ Passing passing(const Vec2& p, const Vec2& v_rel) {
   return {time, (v_rel.x * p.y - v_rel.y * p.x) / std::sqrt(square)};
 }
 
-}  // namespace
+/// Puts one input behind the other.
+class Inputs {
+ public:
+  explicit Inputs(std::array<float, num_net_inputs>& inputs) : inputs_(inputs) {}
 
-SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std::size_t obstacle,
-                      world::Shape shape) {
-  const auto number = [&](std::size_t i) { return static_cast<double>(seen[i]); };
-  const Vec2 v_B{number(0), number(1)};
-  const double grip = number(8);
-  const Obstacle other = seen_obstacle(seen, obstacle, shape);
-  const std::size_t first = num_ego_features + obstacle * num_obstacle_features;
-  const Vec2 heading{number(first + 3), number(first + 4)};
-  const Vec2 p = other.X_WO.p;
-  const Vec2 v_rel = other.speed * heading - v_B;
-  const double h = danger::intrusion(body, Pose{}, other.body, other.X_WO);
-  const Passing pass = passing(p, v_rel);
-  const double speed = norm(v_B);
-  const double most = grip * vehicle::gravity;
-  const double closing = std::max(0.0, -dot(p, v_rel) / std::max(0.1, norm(p)));
-  const double needed = closing * closing / (2.0 * std::max(0.5, -h) * most);
-
-  SeenByNet result;
-  result.h = h;
-  std::size_t next = 0;
-  const auto add = [&](double x) {
+  void add(double x) {
     constexpr double largest = 4.0;  // what is rarer than that tells nothing more by its size
-    result.inputs[next++] = static_cast<float>(std::clamp(x, -largest, largest));
-  };
-  add(v_B.x / 20.0);
-  add(v_B.y / 3.0);
-  add(number(2) / 0.5);  // yaw rate
-  add(number(3) / 8.0);  // acceleration
-  add(number(4) / 8.0);
-  add(number(5) / 0.2);  // steering
-  add(number(6) / 8.0);  // brakes
-  add(number(7) / 4.0);  // motor
-  add(grip);
-  add(p.x / 30.0);
-  add(p.y / 15.0);
-  add(std::tanh(p.x / 5.0));
-  add(std::tanh(p.y / 2.0));
-  add(heading.x);
-  add(heading.y);
-  add(v_rel.x / 20.0);
-  add(v_rel.y / 10.0);
-  add(other.speed / 20.0);
-  add(other.acceleration / 5.0);
-  add(other.curvature * other.speed * other.speed / 4.0);
-  add(other.body.length / 5.0);
-  add(other.body.width / 2.0);
-  add(scaled(h));
-  add(finely(h));
-  for (const double time : times_ahead) {
-    const Obstacle then = after(other, time);
-    const double h_then = danger::intrusion(body, Pose{time * v_B, 0.0}, then.body, then.X_WO);
-    add(scaled(h_then));
+    inputs_[next_++] = static_cast<float>(std::clamp(x, -largest, largest));
   }
-  add(pass.time / 3.0);
-  add(std::clamp(pass.left / 5.0, -3.0, 3.0));
-  add(speed * speed / (2.0 * most) / 30.0);
-  add(std::min(3.0, needed));
-  add(closing / 10.0);
-  const Evasions evasions(body, v_B, grip);
+  [[nodiscard]] bool complete() const { return next_ == inputs_.size(); }
+
+ private:
+  std::array<float, num_net_inputs>& inputs_;
+  std::size_t next_ = 0;
+};
+
+/// An ego and an obstacle, as the ego sees them.
+struct EgoAndObstacle {
+  world::Footprint body;
+  Vec2 v_B;
+  double grip;
+  Obstacle other;
+  Vec2 heading;  ///< of the obstacle's travel
+  Vec2 v_rel;
+  double h;
+
+  [[nodiscard]] Vec2 p() const { return other.X_WO.p; }
+  /// The greatest acceleration that the grip allows [m/s^2].
+  [[nodiscard]] double most() const { return grip * vehicle::gravity; }
+};
+
+EgoAndObstacle pair_of(const world::Footprint& body, const Observation& seen, std::size_t obstacle,
+                       world::Shape shape) {
+  const auto number = [&](std::size_t i) { return static_cast<double>(seen[i]); };
+  const std::size_t first = num_ego_features + obstacle * num_obstacle_features;
+  const Vec2 v_B{number(0), number(1)};
+  const Vec2 heading{number(first + 3), number(first + 4)};
+  const Obstacle other = seen_obstacle(seen, obstacle, shape);
+  return {.body = body,
+          .v_B = v_B,
+          .grip = number(8),
+          .other = other,
+          .heading = heading,
+          .v_rel = other.speed * heading - v_B,
+          .h = danger::intrusion(body, Pose{}, other.body, other.X_WO)};
+}
+
+void add_ego(const Observation& seen, Inputs& inputs) {
+  // Of velocity ahead and to the left, yaw rate, acceleration, steering, brakes, motor and grip.
+  constexpr std::array<double, 9> unit{20.0, 3.0, 0.5, 8.0, 8.0, 0.2, 8.0, 4.0, 1.0};
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    inputs.add(static_cast<double>(seen[i]) / unit[i]);
+  }
+}
+
+void add_obstacle(const EgoAndObstacle& pair, Inputs& inputs) {
+  const Obstacle& other = pair.other;
+  const Vec2 p = pair.p();
+  inputs.add(p.x / 30.0);
+  inputs.add(p.y / 15.0);
+  inputs.add(std::tanh(p.x / 5.0));
+  inputs.add(std::tanh(p.y / 2.0));
+  inputs.add(pair.heading.x);
+  inputs.add(pair.heading.y);
+  inputs.add(pair.v_rel.x / 20.0);
+  inputs.add(pair.v_rel.y / 10.0);
+  inputs.add(other.speed / 20.0);
+  inputs.add(other.acceleration / 5.0);
+  inputs.add(other.curvature * other.speed * other.speed / 4.0);
+  inputs.add(other.body.length / 5.0);
+  inputs.add(other.body.width / 2.0);
+  inputs.add(scaled(pair.h));
+  inputs.add(finely(pair.h));
+}
+
+/// What comes if neither does anything, and what braking straight would need.
+void add_future(const EgoAndObstacle& pair, Inputs& inputs) {
+  for (const double time : times_ahead) {
+    const Obstacle then = after(pair.other, time);
+    const Pose ego{time * pair.v_B, 0.0};
+    inputs.add(scaled(danger::intrusion(pair.body, ego, then.body, then.X_WO)));
+  }
+  const Vec2 p = pair.p();
+  const Passing pass = passing(p, pair.v_rel);
+  const double speed = norm(pair.v_B);
+  const double closing = std::max(0.0, -dot(p, pair.v_rel) / std::max(0.1, norm(p)));
+  const double needed = closing * closing / (2.0 * std::max(0.5, -pair.h) * pair.most());
+  inputs.add(pass.time / 3.0);
+  inputs.add(std::clamp(pass.left / 5.0, -3.0, 3.0));
+  inputs.add(speed * speed / (2.0 * pair.most()) / 30.0);
+  inputs.add(std::min(3.0, needed));
+  inputs.add(closing / 10.0);
+}
+
+void add_evasions(const EgoAndObstacle& pair, Inputs& inputs) {
+  const Evasions evasions(pair.body, pair.v_B, pair.grip);
   for (const double time : times_of_evasions) {
-    const Obstacle then = after(other, time);
-    add(scaled(evasions.h(-1.0, 0.0, time, then)));
+    const Obstacle then = after(pair.other, time);
+    inputs.add(scaled(evasions.h(-1.0, 0.0, time, then)));
     for (const double braking : {0.0, -std::numbers::sqrt2 / 2.0}) {
       const double turning = std::sqrt(1.0 - braking * braking);
       const double left = evasions.h(braking, turning, time, then);
       const double right = evasions.h(braking, -turning, time, then);
-      add(scaled(0.5 * (left + right)));
-      add(finely(left - right));
+      inputs.add(scaled(0.5 * (left + right)));
+      inputs.add(finely(left - right));
     }
   }
-  expects(next == num_net_inputs, "all inputs");
+}
+
+}  // namespace
+
+SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std::size_t obstacle,
+                      world::Shape shape) {
+  const EgoAndObstacle pair = pair_of(body, seen, obstacle, shape);
+  SeenByNet result;
+  result.h = pair.h;
+  Inputs inputs(result.inputs);
+  add_ego(seen, inputs);
+  add_obstacle(pair, inputs);
+  add_future(pair, inputs);
+  add_evasions(pair, inputs);
+  expects(inputs.complete(), "all inputs");
   return result;
 }
 

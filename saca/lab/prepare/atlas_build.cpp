@@ -215,6 +215,44 @@ std::string title_of(const manoeuvre::Car& car, const atlas::AtlasGrid& grid) {
          hex(drives.value());
 }
 
+// What is known of an atlas that is being built.
+struct Known {
+  std::shared_ptr<std::vector<atlas::AtlasNode>> nodes;
+  std::vector<char> is_known;      // of each node
+  std::optional<Journal> journal;  // that remembers them
+
+  [[nodiscard]] std::vector<std::size_t> unknown() const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < is_known.size(); ++i) {
+      if (is_known[i] == 0) {
+        numbers.push_back(i);
+      }
+    }
+    return numbers;
+  }
+};
+
+Result<Known> known_nodes(const manoeuvre::Car& car, const atlas::AtlasGrid& grid,
+                          const std::filesystem::path& journal) {
+  Known known{.nodes = std::make_shared<std::vector<atlas::AtlasNode>>(atlas::num_nodes(grid)),
+              .is_known = std::vector<char>(atlas::num_nodes(grid), 0),
+              .journal = {}};
+  if (journal.empty()) {
+    return known;
+  }
+  auto opened = Journal::open(journal, title_of(car, grid));
+  if (!opened.has_value()) {
+    return opened.error();
+  }
+  known.journal.emplace(std::move(opened).value());
+  for (const std::string& line : known.journal->lines()) {
+    if (const auto number = node_from(line, *known.nodes)) {
+      known.is_known[*number] = 1;
+    }
+  }
+  return known;
+}
+
 }  // namespace
 
 std::vector<atlas::AtlasNode> atlas_nodes(const manoeuvre::Car& car, const atlas::AtlasGrid& grid,
@@ -233,33 +271,18 @@ std::vector<atlas::AtlasNode> atlas_nodes(const manoeuvre::Car& car, const atlas
 Result<AtlasNodes> build_atlas(const manoeuvre::Car& car, const atlas::AtlasGrid& grid, int threads,
                                const std::filesystem::path& journal,
                                const std::function<bool(const AtlasProgress&)>& go_on) {
-  const auto nodes = std::make_shared<std::vector<atlas::AtlasNode>>(atlas::num_nodes(grid));
-  std::vector<char> known(nodes->size(), 0);
-  AtlasProgress progress;
-  std::optional<Journal> book;
-  if (!journal.empty()) {
-    auto opened = Journal::open(journal, title_of(car, grid));
-    if (!opened.has_value()) {
-      return opened.error();
-    }
-    book.emplace(std::move(opened).value());
-    for (const std::string& line : book->lines()) {
-      if (const auto number = node_from(line, *nodes)) {
-        progress.remembered += known[*number] == 0 ? 1U : 0U;
-        known[*number] = 1;
-      }
-    }
-    progress.done = progress.remembered;
+  auto opened = known_nodes(car, grid, journal);
+  if (!opened.has_value()) {
+    return opened.error();
   }
+  Known known = std::move(opened).value();
+  const std::vector<std::size_t> unknown = known.unknown();
+  AtlasProgress progress;
+  progress.remembered = known.nodes->size() - unknown.size();
+  progress.done = progress.remembered;
   std::mutex lock;
   std::atomic<bool> stopped = !go_on(progress);
   bool written = true;
-  std::vector<std::size_t> unknown;
-  for (std::size_t i = 0; i < nodes->size(); ++i) {
-    if (known[i] == 0) {
-      unknown.push_back(i);
-    }
-  }
   const std::size_t num_lots = (unknown.size() + nodes_at_once - 1) / nodes_at_once;
   in_parallel(num_lots, threads, [&](std::size_t lot) {
     if (stopped) {
@@ -271,8 +294,8 @@ Result<AtlasNodes> build_atlas(const manoeuvre::Car& car, const atlas::AtlasGrid
     const std::vector<atlas::AtlasNode> done = atlas_nodes(car, grid, numbers);
     const std::lock_guard guard(lock);
     for (std::size_t k = 0; k < done.size(); ++k) {
-      (*nodes)[numbers[k]] = done[k];
-      written = written && (!book || book->add(line_of(numbers[k], done[k])));
+      (*known.nodes)[numbers[k]] = done[k];
+      written = written && (!known.journal || known.journal->add(line_of(numbers[k], done[k])));
     }
     progress.done += done.size();
     if (!written || !go_on(progress)) {
@@ -282,7 +305,7 @@ Result<AtlasNodes> build_atlas(const manoeuvre::Car& car, const atlas::AtlasGrid
   if (!written) {
     return Error{Error::Code::unwritable, journal.string() + ": cannot be written"};
   }
-  return progress.done == nodes->size() ? AtlasNodes(nodes) : AtlasNodes();
+  return progress.done == known.nodes->size() ? AtlasNodes(known.nodes) : AtlasNodes();
 }
 
 }  // namespace saca::prepare

@@ -90,6 +90,33 @@ HundredCarRow row_of(const std::vector<double>& values, std::int64_t sync) {
   return row;
 }
 
+HundredCarEvent event_of(const std::vector<std::string_view>& fields, std::int64_t vehicle,
+                         std::int64_t first_sync, std::int64_t last_sync) {
+  const auto word = [&fields](std::size_t column) {
+    return std::string(trimmed(fields[column - 1]));
+  };
+  return HundredCarEvent{.vehicle = vehicle,
+                         .start_sync = first_sync,
+                         .end_sync = last_sync,
+                         .severity = word(5),
+                         .nature = word(10),
+                         .manoeuvre_before = word(11),
+                         .precipitating = word(13),
+                         .reaction = word(14),
+                         .control_after = word(15),
+                         .behaviour = word(16),
+                         .surface = word(49),
+                         .flow = word(50),
+                         .lanes = word(51),
+                         .alignment = word(55),
+                         .locality = word(56),
+                         .light = word(57),
+                         .weather = word(58),
+                         .lead_type = word(63),
+                         .third_place = word(66),
+                         .third_type = word(67)};
+}
+
 }  // namespace
 
 Result<std::vector<HundredCarRow>> read_hundred_car_rows(std::string_view text,
@@ -182,29 +209,7 @@ Result<HundredCarEvent> read_hundred_car_event(std::string_view text, std::strin
                        "columns 3 and 4: want the event's first and last sync, got `" +
                            std::string(fields[2]) + "` and `" + std::string(fields[3]) + "`");
     }
-    const auto word = [&fields](std::size_t column) {
-      return std::string(trimmed(fields[column - 1]));
-    };
-    return HundredCarEvent{.vehicle = *vehicle,
-                           .start_sync = *start,
-                           .end_sync = *end,
-                           .severity = word(5),
-                           .nature = word(10),
-                           .manoeuvre_before = word(11),
-                           .precipitating = word(13),
-                           .reaction = word(14),
-                           .control_after = word(15),
-                           .behaviour = word(16),
-                           .surface = word(49),
-                           .flow = word(50),
-                           .lanes = word(51),
-                           .alignment = word(55),
-                           .locality = word(56),
-                           .light = word(57),
-                           .weather = word(58),
-                           .lead_type = word(63),
-                           .third_place = word(66),
-                           .third_type = word(67)};
+    return event_of(fields, *vehicle, *start, *end);
   }
   return Error{Error::Code::malformed, std::string(source) + ": want a row of event " +
                                            std::to_string(event) + ", got none"};

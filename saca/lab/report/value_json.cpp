@@ -159,6 +159,30 @@ std::vector<danger::Axis> shown_axes(const danger::Solution& solved, double cour
              : solved.grid.axes;
 }
 
+namespace {
+
+/// Axes that the page shows instead of the grid's; null: none.
+json shown_json(const danger::Solution& solved, const ValueView& view) {
+  if (danger::view_of(solved) != danger::View::ego) {
+    return {};
+  }
+  json shown = json::array();
+  for (const danger::Axis& axis : shown_axes(solved, view.others[2])) {
+    shown.push_back(axis_json(axis, ends_of(axis)));
+  }
+  return shown;
+}
+
+json outline_json(std::string_view problem) {
+  json outline = json::array();
+  for (const Vec2 p : obstacle_outline(problem)) {
+    outline.push_back({p.x, p.y});
+  }
+  return outline;
+}
+
+}  // namespace
+
 std::string value_json(const danger::Solution& solved, const ValueView& view,
                        std::size_t most_values) {
   const danger::Grid& grid = solved.grid;
@@ -183,17 +207,6 @@ std::string value_json(const danger::Solution& solved, const ValueView& view,
     axes.push_back(axis_json(grid.axes[d], picked[d]));
     others.push_back(view.others[d]);
   }
-  json shown;
-  if (danger::view_of(solved) == danger::View::ego) {
-    shown = json::array();
-    for (const danger::Axis& axis : shown_axes(solved, view.others[2])) {
-      shown.push_back(axis_json(axis, ends_of(axis)));
-    }
-  }
-  json outline = json::array();
-  for (const Vec2 p : obstacle_outline(solved.problem)) {
-    outline.push_back({p.x, p.y});
-  }
   const auto start = std::lower_bound(times.begin(), times.end(), view.time) - times.begin();
   const ValueScale scale =
       scale_of({static_cast<float>(extent.lowest), static_cast<float>(extent.highest)});
@@ -207,7 +220,7 @@ std::string value_json(const danger::Solution& solved, const ValueView& view,
       {"times_s", times_s},
       {"start", {{"time", start}, {"others", others}, {"zoom", view.zoom}}},
       {"axes", axes},
-      {"shown", shown},
+      {"shown", shown_json(solved, view)},
       {"value_words", "V [m]"},
       {"value_unit", "m"},
       {"extent", {{"lowest", extent.lowest}, {"highest", extent.highest}}},
@@ -215,7 +228,7 @@ std::string value_json(const danger::Solution& solved, const ValueView& view,
       {"rounding", rounding},
       {"colours",
        {{"danger", colours_json(danger_colours)}, {"safety", colours_json(safety_colours)}}},
-      {"outline", outline},
+      {"outline", outline_json(solved.problem)},
       {"values", base64(bytes)}};
   return page.dump(-1, ' ', false, json::error_handler_t::replace);
 }

@@ -153,8 +153,8 @@ class Decider {
     avoider_.stand_down();
     return begun;
   }
-  /// For whom it acted last.
-  [[nodiscard]] const world::Actor& feared() const { return *feared_; }
+  /// For whom it acted last; nullptr: it has not.
+  [[nodiscard]] const world::Actor* feared() const { return feared_ ? &*feared_ : nullptr; }
 
  private:
   static runtime::PlanesSetup planes_of(const ShadowSetup& setup) {
@@ -166,6 +166,68 @@ class Decider {
   Avoider avoider_;
   std::optional<world::Actor> feared_;
   double time_to_conflict_ = 0.0;
+};
+
+/// What is found in a drive.
+class Watch {
+ public:
+  /// All of it outlives the watch.
+  Watch(const scenario::Scenario& world, const ShadowSetup& setup, const eval::ShadowWindow& window)
+      : world_(world), setup_(setup), window_(window) {}
+
+  void note_preview(const world::Scene& seen, const intent::Beliefs& beliefs) {
+    const auto near =
+        preview::previewed_threat(seen, beliefs, preview::hard_driving(), setup_.thresholds);
+    if (preview_.look(seen.time, near.has_value())) {
+      drive_.previews.push_back({seen.time, seen.time, actor_name(seen.actors[near->actor])});
+    } else if (near) {
+      drive_.previews.back().to = seen.time;
+    }
+  }
+  void note_trigger(const world::Scene& seen, const reflex::TrackConfirmation& tracks) {
+    const auto threat = reflex::triggering_threat(seen, setup_.thresholds, tracks.confirmed());
+    if (trigger_.look(seen.time, threat.has_value())) {
+      const world::Actor& who = seen.actors[threat->actor];
+      drive_.triggers.push_back({seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
+                                 judgement(who, seen.time)});
+    }
+  }
+  /// @param begun   what the one who decides begins in this look
+  /// @param feared  for whom
+  void note_intervention(const world::Scene& seen, std::optional<ShadowIntervention> begun,
+                         const world::Actor* feared) {
+    if (intervention_.look(seen.time, begun.has_value())) {
+      begun->trigger.judgement = judgement(*feared, seen.time);
+      drive_.interventions.push_back(*std::move(begun));
+    }
+  }
+  void note_way(const world::Scene& seen) {
+    if (last_p_W_) {
+      drive_.metres += norm(seen.ego.X_WB.p - *last_p_W_);
+      ++num_steps_;
+    }
+    last_p_W_ = seen.ego.X_WB.p;
+  }
+  [[nodiscard]] ShadowDrive found() && {
+    drive_.seconds = num_steps_ * encounter::ClosedLoop::step;
+    return std::move(drive_);
+  }
+
+ private:
+  [[nodiscard]] eval::ShadowJudgement judgement(const world::Actor& who, double time) const {
+    return judged(world_, manoeuvre::footprint(*setup_.car), eval::actor_index(world_, who), time,
+                  window_);
+  }
+
+  const scenario::Scenario& world_;
+  const ShadowSetup& setup_;
+  const eval::ShadowWindow& window_;
+  ShadowDrive drive_;
+  Arming preview_;
+  Arming trigger_;
+  Arming intervention_;
+  std::optional<Vec2> last_p_W_;  // at the look before, if it counts
+  int num_steps_ = 0;
 };
 
 world::Track track_to(double from, double to, const auto& pose) {
@@ -195,16 +257,11 @@ Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario, const Shado
   sim::Stepper stepper(world, *setup.car);
   intent::Observer observer(*setup.intent);
   reflex::TrackConfirmation tracks;
-  ShadowDrive drive;
-  Arming preview;
-  Arming trigger;
-  Arming intervention;
+  Watch watch(world, setup, window);
   std::optional<Decider> decider;
   if (setup.saca != nullptr) {
     decider.emplace(setup);
   }
-  std::optional<Vec2> last_p_W;  // at the look before, if it counts
-  int num_steps = 0;
   for (int k = 0; k <= num_looks; ++k) {
     world::Scene seen = stepper.perceive();
     drop_who_is_gone(world, seen);
@@ -215,42 +272,18 @@ Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario, const Shado
     const intent::Beliefs& beliefs = observer.look(seen);
     tracks.look(seen);
     auto begun = decider ? decider->look(seen) : std::nullopt;
-    if (seen.time < window.from - nearly_now) {
-      advance_to_next_look(stepper);
-      continue;
+    if (seen.time >= window.from - nearly_now) {
+      if (window.lane_ahead && leaves_lane(seen, *window.lane_ahead, setup.thresholds.trigger)) {
+        break;
+      }
+      watch.note_preview(seen, beliefs);
+      watch.note_trigger(seen, tracks);
+      watch.note_intervention(seen, std::move(begun), decider ? decider->feared() : nullptr);
+      watch.note_way(seen);
     }
-    if (window.lane_ahead && leaves_lane(seen, *window.lane_ahead, setup.thresholds.trigger)) {
-      break;
-    }
-    const auto near =
-        preview::previewed_threat(seen, beliefs, preview::hard_driving(), setup.thresholds);
-    if (preview.look(seen.time, near.has_value())) {
-      drive.previews.push_back({seen.time, seen.time, actor_name(seen.actors[near->actor])});
-    } else if (near) {
-      drive.previews.back().to = seen.time;
-    }
-    const auto threat = reflex::triggering_threat(seen, setup.thresholds, tracks.confirmed());
-    if (trigger.look(seen.time, threat.has_value())) {
-      const world::Actor& who = seen.actors[threat->actor];
-      drive.triggers.push_back({seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
-                                judged(world, manoeuvre::footprint(*setup.car),
-                                       eval::actor_index(world, who), seen.time, window)});
-    }
-    if (intervention.look(seen.time, begun.has_value())) {
-      begun->trigger.judgement =
-          judged(world, manoeuvre::footprint(*setup.car),
-                 eval::actor_index(world, decider->feared()), seen.time, window);
-      drive.interventions.push_back(*std::move(begun));
-    }
-    if (last_p_W) {
-      drive.metres += norm(seen.ego.X_WB.p - *last_p_W);
-      ++num_steps;
-    }
-    last_p_W = seen.ego.X_WB.p;
     advance_to_next_look(stepper);
   }
-  drive.seconds = num_steps * encounter::ClosedLoop::step;
-  return drive;
+  return std::move(watch).found();
 }
 
 ShadowPicture shadow_picture(const scenario::Scenario& scenario, const ShadowSetup& setup,
