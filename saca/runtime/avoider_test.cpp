@@ -349,14 +349,16 @@ struct PerceptionFault {
   const char* told;  ///< in an event
 };
 
-const std::vector<PerceptionFault>& perception_faults() {
-  const auto with = [](auto&& spoil) {
-    return [spoil](Avoider& avoider, const Scene& truth, const Scene& last) {
-      Scene scene = truth;
-      spoil(scene, last);
-      return avoider.step(scene);
-    };
+/// A scene comes, but something about it is changed.
+auto with(const std::function<void(Scene& scene, const Scene& last)>& spoil) {
+  return [spoil](Avoider& avoider, const Scene& truth, const Scene& last) {
+    Scene scene = truth;
+    spoil(scene, last);
+    return avoider.step(scene);
   };
+}
+
+const std::vector<PerceptionFault>& perception_faults() {
   static const std::vector<PerceptionFault> all{
       {"nothing comes",
        [](Avoider& avoider, const Scene& truth, const Scene&) { return avoider.step(truth.time); },
@@ -511,14 +513,10 @@ double& given(std::optional<double>& number) {
   return number ? *number : number.emplace(0.0);
 }
 
-/// Every number of a scene with a road user in it, with the bounds of world::broken_rule.
-std::vector<Field> fields() {
+/// Every number of a scene but its road users', with the bounds of world::broken_rule.
+std::vector<Field> scene_fields() {
   constexpr double any = std::numeric_limits<double>::max();
   constexpr double tiny = std::numeric_limits<double>::denorm_min();
-  constexpr double right_angle = 0.5 * std::numbers::pi;
-  const auto actor = [](auto&& of) {
-    return [of](Scene& scene) -> double& { return of(scene.actors[0]); };
-  };
   return {
       {"time", -1e7, 1e7, [](Scene& s) -> double& { return s.time; }},
       {"ego x", -1e7, 1e7, [](Scene& s) -> double& { return s.ego.X_WB.p.x; }},
@@ -542,6 +540,17 @@ std::vector<Field> fields() {
       {"lane width", 1e-3, 1e3, [](Scene& s) -> double& { return s.road.lane_width; }},
       {"left edge", tiny, 1e7, [](Scene& s) -> double& { return s.road.left_edge; }},
       {"right edge", -1e7, -tiny, [](Scene& s) -> double& { return s.road.right_edge; }},
+  };
+}
+
+/// Likewise of its first road user.
+std::vector<Field> actor_fields() {
+  constexpr double any = std::numeric_limits<double>::max();
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  const auto actor = [](auto&& of) {
+    return [of](Scene& scene) -> double& { return of(scene.actors[0]); };
+  };
+  return {
       {"x", -1e7, 1e7, actor([](Actor& a) -> double& { return a.X_WA.p.x; })},
       {"y", -1e7, 1e7, actor([](Actor& a) -> double& { return a.X_WA.p.y; })},
       {"yaw", -any, any, actor([](Actor& a) -> double& { return a.X_WA.yaw; })},
@@ -563,6 +572,14 @@ std::vector<Field> fields() {
       {"throttle", 0.0, 1.0, actor([](Actor& a) -> double& { return given(a.shared.throttle); })},
       {"brake", 0.0, 1.0, actor([](Actor& a) -> double& { return given(a.shared.brake); })},
   };
+}
+
+std::vector<Field> fields() {
+  std::vector<Field> all = scene_fields();
+  for (Field& one : actor_fields()) {
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
 using Spoil = std::function<void(Scene&)>;

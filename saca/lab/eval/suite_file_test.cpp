@@ -13,7 +13,8 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-TEST(SuiteFile, HoldsAColumnForEachNumber) {
+/// One encounter with the runs of three methods, and one that could not be played.
+std::vector<SuiteRow> two_rows() {
   SuiteRow good{
       .number = 7, .family = "crossing", .fault = {}, .risk = {}, .twin = {}, .driver = {}};
   good.risk.trigger = 3.25;
@@ -35,8 +36,12 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
                .risk = {},
                .twin = {},
                .driver = {}};
+  return {good, bad};
+}
+
+TEST(SuiteFile, HoldsAColumnForEachNumber) {
   const auto path = std::filesystem::temp_directory_path() / "saca_suite_file_test.h5";
-  const std::vector<SuiteRow> rows{good, bad};
+  const std::vector<SuiteRow> rows = two_rows();
   ASSERT_EQ(write_suite(path, rows, {"aeb", "gentle", "full"}, R"({"n": 2})"), std::nullopt);
   const auto read =
       formats::read_sealed_hdf5(path, "saca.suite/1", [](formats::Hdf5Reader& reader) {

@@ -11,15 +11,15 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A lanelet along an arc from s = `from` to `to`, its centre `d` to the left of the arc's.
+/// A lanelet along an arc from s = `from` to `to`, against it where that is less, its centre `d` to
+/// the left of the arc's.
 Lanelet arc_lanelet(std::int64_t id, const world::Road& arc, double from, double to, double d,
-                    double width, bool along = true) {
+                    double width) {
   Lanelet lanelet{.id = id};
   constexpr int pieces = 60;
   for (int k = 0; k <= pieces; ++k) {
-    const double share = static_cast<double>(along ? k : pieces - k) / pieces;
-    const double s = from + share * (to - from);
-    const double side = along ? 0.5 * width : -0.5 * width;
+    const double s = from + static_cast<double>(k) / pieces * (to - from);
+    const double side = std::copysign(0.5 * width, to - from);
     lanelet.left_W.push_back(from_lane(arc, {s, d + side, 0.0}).p);
     lanelet.right_W.push_back(from_lane(arc, {s, d - side, 0.0}).p);
   }
@@ -64,10 +64,9 @@ TEST(FitLane, FindsTheArcOnWhichTheLaneWasDrawn) {
 CommonRoad four_lanes() {
   const world::Road arc = arc_of(0.001);
   CommonRoad file;
-  file.lanelets = {arc_lanelet(10, arc, -30.0, 120.0, 0.0, 3.5),
-                   arc_lanelet(11, arc, -30.0, 120.0, -3.5, 3.5),
-                   arc_lanelet(12, arc, -30.0, 120.0, 3.5, 3.5, false),
-                   arc_lanelet(13, arc, -30.0, 120.0, 7.0, 3.5, false)};
+  file.lanelets = {
+      arc_lanelet(10, arc, -30.0, 120.0, 0.0, 3.5), arc_lanelet(11, arc, -30.0, 120.0, -3.5, 3.5),
+      arc_lanelet(12, arc, 120.0, -30.0, 3.5, 3.5), arc_lanelet(13, arc, 120.0, -30.0, 7.0, 3.5)};
   file.lanelets[0].left = Neighbour{12, false};
   file.lanelets[0].right = Neighbour{11, true};
   file.lanelets[1].left = Neighbour{10, true};

@@ -38,17 +38,8 @@ std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<doubl
   return x;
 }
 
-/// The same likelihood maximised at once: least squares over all states of all times.
-AxisMotion by_least_squares(const std::vector<double>& positions, const std::vector<double>& speeds,
-                            const SmootherSettings& settings) {
-  const std::size_t n = positions.size();
-  std::vector<std::vector<double>> a(3 * n, std::vector<double>(3 * n, 0.0));
-  std::vector<double> b(3 * n, 0.0);
-  const double first_sd = 1e3 * settings.position_sd + 1.0;
-  const std::vector<double> prior{first_sd, 100.0, 10.0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[i][i] += 1.0 / (prior[i] * prior[i]);
-  }
+/// From each state to the next, with the noise between them.
+void add_transitions(const SmootherSettings& settings, std::vector<std::vector<double>>& a) {
   const double q =
       std::pow(settings.position_sd, 2) * dt * std::pow(2.0 * pi * settings.cut_off, 6);
   // Inverse of the noise's covariance, by hand: q [t^5/20 t^4/8 t^3/6; ...].
@@ -58,7 +49,7 @@ AxisMotion by_least_squares(const std::vector<double>& positions, const std::vec
       {-360.0 / (q * std::pow(t, 4)), 192.0 / (q * std::pow(t, 3)), -36.0 / (q * t * t)},
       {60.0 / (q * std::pow(t, 3)), -36.0 / (q * t * t), 9.0 / (q * t)}};
   const std::vector<std::vector<double>> f{{1.0, t, 0.5 * t * t}, {0.0, 1.0, t}, {0.0, 0.0, 1.0}};
-  for (std::size_t k = 0; k + 1 < n; ++k) {
+  for (std::size_t k = 0; 3 * (k + 1) < a.size(); ++k) {
     // Residual x[k + 1] - F x[k] = D z with z = (x[k], x[k + 1]).
     std::vector<std::vector<double>> d(3, std::vector<double>(6, 0.0));
     for (std::size_t r = 0; r < 3; ++r) {
@@ -77,6 +68,20 @@ AxisMotion by_least_squares(const std::vector<double>& positions, const std::vec
       }
     }
   }
+}
+
+/// The same likelihood maximised at once: least squares over all states of all times.
+AxisMotion by_least_squares(const std::vector<double>& positions, const std::vector<double>& speeds,
+                            const SmootherSettings& settings) {
+  const std::size_t n = positions.size();
+  std::vector<std::vector<double>> a(3 * n, std::vector<double>(3 * n, 0.0));
+  std::vector<double> b(3 * n, 0.0);
+  const double first_sd = 1e3 * settings.position_sd + 1.0;
+  const std::vector<double> prior{first_sd, 100.0, 10.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    a[i][i] += 1.0 / (prior[i] * prior[i]);
+  }
+  add_transitions(settings, a);
   for (std::size_t k = 0; k < n; ++k) {
     if (!std::isnan(positions[k])) {
       a[3 * k][3 * k] += 1.0 / std::pow(settings.position_sd, 2);

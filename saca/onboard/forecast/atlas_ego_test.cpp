@@ -85,7 +85,7 @@ TEST(AtlasEgo, SensitivitiesAtTheSamplesAreThoseOfTheTime) {
                   with_sensitivity.more_W.y, 2e-3);
       most = std::max({most, norm(with_sensitivity.less_W), norm(with_sensitivity.more_W)});
     }
-    EXPECT_LE(most, ego.most_sway() + 1e-3);
+    EXPECT_LE(most, ego.most_moved_by_grip() + 1e-3);
   }
 }
 

@@ -246,14 +246,8 @@ TEST_F(InC, DrivesMirrorImages) {
   EXPECT_NEAR(last[0].X_WB.yaw, -last[1].X_WB.yaw, 1e-9);
 }
 
-// Field for field what the classes are given: a scene in which each number says something.
-TEST_F(InC, SaysWhatTheClassesSay) {
-  const auto opened = open();
-  const auto package = read_vehicle_package(path_);
-  ASSERT_TRUE(package.has_value());
-  const manoeuvre::Car& car = package.value().car;
-  ReflexPlane plane({.car = &car, .atlas = AtlasJudge(car, package.value().atlas, harm())});
-
+/// A scene in which each number says something.
+saca_scene telling_scene() {
   auto scene = wreck_ahead(22.0, 0.4);
   scene.X_WB = {3.0, 1.0, 0.02};
   scene.v_B = {12.4, 0.1};
@@ -287,7 +281,11 @@ TEST_F(InC, SaysWhatTheClassesSay) {
   scene.actors[1].id = 2;
   scene.actors[1].X_WA = {-15.0, 1.0, 0.0};
   scene.actors[1].v_W = {13.0, 0.0};
+  return scene;
+}
 
+/// The same as the classes are given it.
+world::Scene same_scene(const manoeuvre::Car& car) {
   world::Scene same;
   same.ego = {.X_WB = {{3.0, 1.0}, 0.02}, .v_B = {12.4, 0.1}, .yaw_rate = 0.01, .a_B = {-0.2, 0.3}};
   same.ego_footprint = manoeuvre::footprint(car);
@@ -321,7 +319,32 @@ TEST_F(InC, SaysWhatTheClassesSay) {
   follower.X_WA.p = {-15.0, 1.0};
   follower.v_W = {13.0, 0.0};
   same.actors.push_back(follower);
+  return same;
+}
 
+saca_measured measured_of(const vehicle::VehicleState& state) {
+  auto measured = begun(saca_measured_init);
+  measured.X_WB = telling_scene().X_WB;
+  measured.v_B = {state.v_B.x, state.v_B.y};
+  measured.a_B = {state.a_B.x, state.a_B.y};
+  measured.yaw_rate = state.yaw_rate;
+  measured.steering = state.steering;
+  std::copy(state.wheel_speed.begin(), state.wheel_speed.end(), measured.wheel_speed);
+  std::copy(state.brake_torque.begin(), state.brake_torque.end(), measured.brake_torque);
+  measured.motor_torque = state.motor_torque;
+  measured.load_a_B = {-0.1, 0.2};
+  return measured;
+}
+
+// Field for field what the classes are given.
+TEST_F(InC, SaysWhatTheClassesSay) {
+  const auto opened = open();
+  const auto package = read_vehicle_package(path_);
+  ASSERT_TRUE(package.has_value());
+  const manoeuvre::Car& car = package.value().car;
+  ReflexPlane plane({.car = &car, .atlas = AtlasJudge(car, package.value().atlas, harm())});
+  const auto scene = telling_scene();
+  const world::Scene same = same_scene(car);
   auto answer = begun(saca_answer_init);
   ASSERT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
   const Reflex wanted = plane.step(same);
@@ -337,16 +360,7 @@ TEST_F(InC, SaysWhatTheClassesSay) {
   manoeuvre::Execution execution(car, wanted.plan, same);
   vehicle::VehicleState state = manoeuvre::rolling_state(car, same.ego, same.grip);
   state.transfer_a_B = {-0.1, 0.2};
-  auto measured = begun(saca_measured_init);
-  measured.X_WB = scene.X_WB;
-  measured.v_B = {state.v_B.x, state.v_B.y};
-  measured.a_B = {state.a_B.x, state.a_B.y};
-  measured.yaw_rate = state.yaw_rate;
-  measured.steering = state.steering;
-  std::copy(state.wheel_speed.begin(), state.wheel_speed.end(), measured.wheel_speed);
-  std::copy(state.brake_torque.begin(), state.brake_torque.end(), measured.brake_torque);
-  measured.motor_torque = state.motor_torque;
-  measured.load_a_B = {-0.1, 0.2};
+  const auto measured = measured_of(state);
   auto command = begun(saca_command_init);
   ASSERT_EQ(saca_reflex_control(opened.reflex.get(), &measured, 0.001, &command), SACA_OK);
   const vehicle::Command told = execution.control(state, same.grip, 0.001);

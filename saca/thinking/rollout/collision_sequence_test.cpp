@@ -71,9 +71,9 @@ TEST(PlayOut, RearEndedTheLeadIsPushedAwayAndStaysAhead) {
 // It meets somebody on foot and brakes; then somebody who does not react comes from behind.
 Encounter struck_twice() {
   Encounter encounter = along_x(10.0);
-  encounter.add(ActorKind::pedestrian, walker, 75.0, {{30.0, 0.0}, pi / 2.0}, {});
-  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0, {{-30.0, 0.0}, 0.0},
-                {10.0, 0.0}, 0.0, 8.0);
+  encounter.add(ActorKind::pedestrian, walker, 75.0, {{{30.0, 0.0}, pi / 2.0}, {}});
+  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0,
+                {{{-30.0, 0.0}, 0.0}, {10.0, 0.0}, 0.0, 8.0});
   return encounter;
 }
 
@@ -123,9 +123,9 @@ TEST(PlayOut, TheHarmOfSeveralBlowsIsTheirCombinedProbability) {
 // there.
 TEST(PlayOut, BetweenAWreckAndWhoComesFromBehind) {
   Encounter encounter = along_x(10.0);
-  encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{30.0, 0.0}, 0.0}, {});
-  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0, {{-30.0, 0.0}, 0.0},
-                {10.0, 0.0}, 0.0, 8.0);
+  encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{{30.0, 0.0}, 0.0}, {}});
+  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0,
+                {{{-30.0, 0.0}, 0.0}, {10.0, 0.0}, 0.0, 8.0});
   const collision::Outcome outcome = encounter.judged(model());
   ASSERT_EQ(outcome.later.size(), 2U);
   const double rests_at = 29.5 - 2.35 - braking_way(1.0);
@@ -175,8 +175,8 @@ TEST(PlayOut, PushedAlongIsStruckOnce) {
   collision::HarmModel plastic = model();
   plastic.law.restitution = 0.0;
   Encounter encounter = along_x(5.0);
-  encounter.add(ActorKind::truck, {.length = 8.0, .width = 2.5}, 12'000.0, {{-30.0, 0.0}, 0.0},
-                {20.0, 0.0});
+  encounter.add(ActorKind::truck, {.length = 8.0, .width = 2.5}, 12'000.0,
+                {{{-30.0, 0.0}, 0.0}, {20.0, 0.0}});
   const collision::Outcome outcome = encounter.judged(plastic);
   ASSERT_TRUE(outcome.contact);
   EXPECT_TRUE(outcome.later.empty());
@@ -195,7 +195,7 @@ TEST(PlayOut, BodiesThatRestInEachOtherDoNotFight) {
 
 TEST(PlayOut, APersonIsStruckOnceAndTheEgoThenBrakes) {
   Encounter encounter = along_x(10.0);
-  encounter.add(ActorKind::pedestrian, walker, 75.0, {{30.0, 0.0}, pi / 2.0}, {});
+  encounter.add(ActorKind::pedestrian, walker, 75.0, {{{30.0, 0.0}, pi / 2.0}, {}});
   const CollisionSequence sequence = encounter.sequence(model());
   ASSERT_TRUE(sequence.outcome.contact);
   EXPECT_TRUE(sequence.outcome.later.empty());
@@ -255,7 +255,7 @@ TEST(PlayOut, TreesHoldTheEgoAndThereItCanBeHit) {
 
 TEST(PlayOut, AKerbCrossedWhileSlidingIsAContactOnce) {
   Encounter encounter = towards(Beyond::kerb, 15.0, 0.25);
-  encounter.add(ActorKind::pedestrian, walker, 75.0, {{5.0, 5.0 * std::tan(0.25)}, 0.0}, {});
+  encounter.add(ActorKind::pedestrian, walker, 75.0, {{{5.0, 5.0 * std::tan(0.25)}, 0.0}, {}});
   const collision::Outcome outcome = encounter.judged(model());
   ASSERT_TRUE(outcome.contact);
   EXPECT_EQ(outcome.contact->actor, 0U);
@@ -266,7 +266,7 @@ TEST(PlayOut, AKerbCrossedWhileSlidingIsAContactOnce) {
 TEST(PlayOut, AWallIsMetLikeAnythingElse) {
   Encounter encounter = along_x(10.0);
   encounter.add(ActorKind::obstacle, {.shape = world::Shape::segment, .length = 30.0}, 1.0,
-                {{30.0, 0.0}, pi / 2.0}, {});
+                {{{30.0, 0.0}, pi / 2.0}, {}});
   const collision::Outcome outcome = encounter.judged(model());
   ASSERT_TRUE(outcome.contact);
   EXPECT_NEAR(outcome.contact->time, (30.0 - 2.35) / 10.0, 1e-8);
@@ -280,7 +280,7 @@ TEST(PlayOut, AWallIsMetLikeAnythingElse) {
 // stops too.
 TEST(PlayOut, WhoReactsIsAskedAgainWithWhatTheEgoReallyDoes) {
   Encounter encounter = along_x(15.0);
-  encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{40.0, 0.0}, 0.0}, {});
+  encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{{40.0, 0.0}, 0.0}, {}});
   encounter.add_car({{-8.0, 0.0}, 0.0}, {15.0, 0.0});
   std::vector<Track> asked;
   const collision::Others others = [&](const manoeuvre::EgoMotion& ego) {
@@ -511,10 +511,10 @@ TEST(PlayOut, FromTheOtherCarsSeatSwapsWhatItShouldToTheEnd) {
     const Vec2 v_other = rotated({8.0, 0.0}, X_WO.yaw);
     Encounter mine;
     mine.motion = steady_ego({}, v_ego, 0.0, 3.0);
-    mine.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, X_WO, v_other, 0.0, 3.0);
+    mine.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, {X_WO, v_other, 0.0, 3.0});
     Encounter theirs;
     theirs.motion = steady_ego(X_WO, v_other, 0.0, 3.0);
-    theirs.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, {}, v_ego, 0.0, 3.0);
+    theirs.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, {{}, v_ego, 0.0, 3.0});
     const collision::Outcome a = mine.judged(model());
     const collision::Outcome b = theirs.judged(model());
     SCOPED_TRACE(i);

@@ -50,17 +50,24 @@ struct Encounter {
   manoeuvre::EgoMotion motion;
   std::vector<world::Track> tracks;
 
-  void add(world::ActorKind kind, world::Footprint footprint, double mass, Pose X_WA, Vec2 v_W,
-           double yaw_rate = 0.0, double duration = 5.0) {
-    world::Actor actor = test::car(0, X_WA.p, v_W, {}, footprint);
+  /// How an actor moves from the scene's time on.
+  struct SteadyMotion {
+    Pose X_WA;
+    Vec2 v_W;
+    double yaw_rate = 0.0;
+    double duration = 5.0;
+  };
+  void add(world::ActorKind kind, world::Footprint footprint, double mass,
+           const SteadyMotion& moves) {
+    world::Actor actor = test::car(0, moves.X_WA.p, moves.v_W, {}, footprint);
     actor.kind = kind;
     actor.mass = mass;
-    actor.X_WA = X_WA;
+    actor.X_WA = moves.X_WA;
     scene.actors.push_back(actor);
-    tracks.push_back(steady(X_WA, v_W, yaw_rate, duration));
+    tracks.push_back(steady(moves.X_WA, moves.v_W, moves.yaw_rate, moves.duration));
   }
   void add_car(Pose X_WA, Vec2 v_W, double yaw_rate = 0.0) {
-    add(world::ActorKind::car, test::ego_body, 1700.0, X_WA, v_W, yaw_rate);
+    add(world::ActorKind::car, test::ego_body, 1700.0, {X_WA, v_W, yaw_rate});
   }
   /// The others on their tracks, whatever the ego does.
   [[nodiscard]] CollisionSequence sequence(const collision::HarmModel& harm) const {

@@ -99,8 +99,8 @@ TEST(Judge, RunningIntoAndBeingRunIntoFromBehind) {
 // plastic bound with restitution, and momentum fixes the ratio.
 TEST(Judge, StruckInTheSide) {
   Encounter encounter = driving(0.0);
-  encounter.add(ActorKind::truck, {.length = 8.0, .width = 2.5}, 12'000.0, {{0.0, -20.0}, pi / 2.0},
-                {0.0, 10.0});
+  encounter.add(ActorKind::truck, {.length = 8.0, .width = 2.5}, 12'000.0,
+                {{{0.0, -20.0}, pi / 2.0}, {0.0, 10.0}});
   const Outcome outcome = encounter.judged(harm());
   ASSERT_TRUE(outcome.contact);
   EXPECT_EQ(outcome.contact->ego_face, Face::right);
@@ -155,7 +155,7 @@ TEST(Judge, ATurningEgoMeetsWhatItsCornerSweeps) {
   Encounter encounter;
   encounter.motion = steady_ego({}, {}, -1.0, 1.5);
   encounter.add(ActorKind::obstacle, {.shape = world::Shape::ellipse, .length = 0.2, .width = 0.2},
-                1.0, {{0.0, -2.0}, 0.0}, {});
+                1.0, {{{0.0, -2.0}, 0.0}, {}});
   const Outcome outcome = encounter.judged(harm());
   ASSERT_TRUE(outcome.contact);
   // The side line (0.95 from the centre) touches the post, 2.0 away: never, until the corner comes
@@ -171,7 +171,7 @@ TEST(Judge, ATurningEgoMeetsWhatItsCornerSweeps) {
 
 TEST(Judge, APedestrianIsHurtByTheClosingSpeedAndTheEgoHardly) {
   Encounter encounter = driving(10.0);
-  encounter.add(ActorKind::pedestrian, person, 75.0, {{30.0, -0.5}, pi / 2.0}, {});
+  encounter.add(ActorKind::pedestrian, person, 75.0, {{{30.0, -0.5}, pi / 2.0}, {}});
   const Outcome outcome = encounter.judged(harm());
   ASSERT_TRUE(outcome.contact);
   EXPECT_NEAR(outcome.contact->ego_delta_v * 1700.0, outcome.contact->other_delta_v * 75.0, 1e-6);
@@ -182,7 +182,7 @@ TEST(Judge, APedestrianIsHurtByTheClosingSpeedAndTheEgoHardly) {
 
 TEST(Judge, AnObstacleDoesNotGiveWayWhateverItsMass) {
   Encounter encounter = driving(10.0);
-  encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{30.0, 0.0}, 0.0}, {});
+  encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{{30.0, 0.0}, 0.0}, {}});
   const Outcome outcome = encounter.judged(harm());
   ASSERT_TRUE(outcome.contact);
   EXPECT_NEAR(outcome.contact->ego_delta_v, 11.0, 1e-6);
@@ -249,7 +249,7 @@ TEST(Judge, AnEgoThatRecoveredItsLaneGoesOnAlongIt) {
   // 25 m along the bend stands a post; its near side is 24.9 m on, the ego's bumper 2.35 m ahead.
   const Pose X_WP = from_lane(encounter.scene.road, {25.0, 0.0, 0.0});
   encounter.add(ActorKind::obstacle, {.shape = world::Shape::ellipse, .length = 0.2, .width = 0.2},
-                1.0, X_WP, {});
+                1.0, {X_WP, {}});
   const Outcome outcome = encounter.judged(harm());
   ASSERT_TRUE(outcome.contact);
   EXPECT_NEAR(outcome.contact->time, (25.0 - 0.1 - 2.35) / 10.0, 0.01);  // the bend's chord
@@ -260,8 +260,8 @@ TEST(Judge, AnEgoThatRecoveredItsLaneGoesOnAlongIt) {
 
 TEST(Judge, AnActorStillMovingWhenItsTrackEndsIsNotInventedFurther) {
   Encounter encounter = driving(15.0, 5.0);
-  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0, {{20.0, 0.0}, 0.0},
-                {15.0, 0.0}, 0.0, 2.0);
+  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0,
+                {{{20.0, 0.0}, 0.0}, {15.0, 0.0}, 0.0, 2.0});
   EXPECT_FALSE(encounter.judged(harm()).contact);  // as far ahead as ever when last heard of
   EXPECT_NEAR(encounter.judged(harm()).clearance, 20.0 - 4.7, 1e-3);
 }
@@ -332,7 +332,7 @@ TEST(Judge, WhatIsHitAfterAKerbIsAddedToIt) {
   const Outcome kerb = encounter.judged(harm());
   const double kerb_alone = kerb.harm;
   EXPECT_GT(kerb_alone, 0.0);
-  encounter.add(ActorKind::pedestrian, person, 75.0, {{40.0, 40.0 * std::tan(0.2)}, 0.0}, {});
+  encounter.add(ActorKind::pedestrian, person, 75.0, {{{40.0, 40.0 * std::tan(0.2)}, 0.0}, {}});
   const Outcome both = encounter.judged(harm());
   ASSERT_TRUE(both.contact);
   EXPECT_EQ(both.contact->actor, 0U);
@@ -360,8 +360,8 @@ Encounter random_encounter(std::mt19937& rng) {
                       rotated({8.0 + 6.0 * uniform(rng), 0.0}, yaw), 0.3 * uniform(rng));
   }
   encounter.add(ActorKind::pedestrian, person, 75.0,
-                {{20.0 + 10.0 * uniform(rng), 6.0 * uniform(rng)}, pi * uniform(rng)},
-                {uniform(rng), uniform(rng)});
+                {{{20.0 + 10.0 * uniform(rng), 6.0 * uniform(rng)}, pi * uniform(rng)},
+                 {uniform(rng), uniform(rng)}});
   encounter.scene.road.left_edge = 8.0;
   encounter.scene.road.left_beyond = Beyond::barrier;
   encounter.scene.road.right_edge = -7.0;
@@ -491,10 +491,10 @@ TEST(Judge, FromTheOtherCarsSeatSwapsWhatItShould) {
     const Vec2 v_other = rotated({8.0, 0.0}, X_WO.yaw);
     Encounter mine;
     mine.motion = steady_ego({}, v_ego, 0.2, 3.0);
-    mine.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, X_WO, v_other, -0.3, 3.0);
+    mine.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, {X_WO, v_other, -0.3, 3.0});
     Encounter theirs;
     theirs.motion = steady_ego(X_WO, v_other, -0.3, 3.0);
-    theirs.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, {}, v_ego, 0.2, 3.0);
+    theirs.add(ActorKind::car, mine.scene.ego_footprint, 1700.0, {{}, v_ego, 0.2, 3.0});
     const Outcome a = mine.judged(harm());
     const Outcome b = theirs.judged(harm());
     ASSERT_EQ(a.contact.has_value(), b.contact.has_value()) << i;
