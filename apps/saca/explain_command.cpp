@@ -1,7 +1,7 @@
 #include "apps/saca/options.h"
 #include "saca/base/core/file.h"
 #include "saca/lab/report/record_in_words.h"
-#include "saca/lab/runs/explanation_told.h"
+#include "saca/lab/runs/explanation_text.h"
 
 namespace saca::app {
 namespace {

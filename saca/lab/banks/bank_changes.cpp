@@ -40,8 +40,8 @@ memory::Case expert_case(const world::Scene& scene, const ExpertWord& word) {
   return one;
 }
 
-std::string text_of(const memory::Learnt& learnt, const std::string& bank) {
-  using How = memory::Learnt::How;
+std::string text_of(const memory::LearningResult& learnt, const std::string& bank) {
+  using How = memory::LearningResult::How;
   return fmt::format("{}: case {}{}; it is used where a rollout confirms it\n", bank, learnt.id,
                      learnt.how == How::merged ? " stands for it already"
                      : learnt.how == How::contradicted

@@ -25,7 +25,7 @@ struct ExpertWord {
 
 /// What became of an expert's case, in a line.
 /// @param bank  its name
-[[nodiscard]] std::string text_of(const memory::Learnt& learnt, const std::string& bank);
+[[nodiscard]] std::string text_of(const memory::LearningResult& learnt, const std::string& bank);
 
 /// What of the trust that cases had elsewhere holds here.
 enum class ImportedTrust {

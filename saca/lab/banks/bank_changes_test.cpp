@@ -26,7 +26,7 @@ TEST(ExpertCase, IsHearsayThatIsNotTrusted) {
 }
 
 TEST(ExpertCase, IsToldByWhatBecameOfIt) {
-  using How = memory::Learnt::How;
+  using How = memory::LearningResult::How;
   EXPECT_EQ(text_of({How::added, 4, 0}, "bank"),
             "bank: case 4; it is used where a rollout confirms it\n");
   EXPECT_EQ(text_of({How::merged, 4, 0}, "bank"),

@@ -10,7 +10,7 @@
 #include "saca/base/core/result.h"
 #include "saca/lab/cases/case_tools.h"
 #include "saca/lab/cases/crash_case.h"
-#include "saca/lab/cases/told_cases.h"
+#include "saca/lab/cases/prompt_cases.h"
 #include "saca/lab/families/family_cues.h"
 
 namespace saca::cases {
@@ -41,7 +41,7 @@ struct ExampleSource {
   int recorded = 0;              ///< left out: they cannot be drawn again
   int test_only = 0;             ///< left out: of a family that only the test split has
   CaseTools tools;
-  std::optional<ToldCases> told;
+  std::optional<PromptCases> told;
   std::optional<families::FamilyCues>
       cues;                  ///< that the encounters have, with the law of what comes
   std::uint64_t digest = 0;  ///< of all that examples depend on, but for the options

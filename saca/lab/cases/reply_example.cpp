@@ -152,7 +152,8 @@ Result<std::optional<AtFirstTrigger>> at_first_trigger(const encounter::Stage& s
 }
 
 std::optional<ReplyExample> reply_example(ReplyExample example, const preview::Situation& situation,
-                                          const std::optional<ToldCase>& told, std::uint64_t seed) {
+                                          const std::optional<PromptCase>& told,
+                                          std::uint64_t seed) {
   example.admissible = language_model::admissible(situation.facts);
   if (example.admissible.none()) {
     return std::nullopt;

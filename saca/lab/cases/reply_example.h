@@ -71,7 +71,7 @@ struct AtFirstTrigger {
     const encounter::Stage& stage, const preview::ForecastTools& tools);
 
 /// The case that a prompt tells of.
-struct ToldCase {
+struct PromptCase {
   memory::Case found;
   double similarity = 0.0;  ///< in [0, 1]
 };
@@ -82,7 +82,7 @@ struct ToldCase {
 /// @return         nullopt where nothing can be driven
 [[nodiscard]] std::optional<ReplyExample> reply_example(ReplyExample example,
                                                         const preview::Situation& situation,
-                                                        const std::optional<ToldCase>& told,
+                                                        const std::optional<PromptCase>& told,
                                                         std::uint64_t seed);
 
 }  // namespace saca::cases

@@ -68,9 +68,9 @@ TEST_F(Examples, TellOfACase) {
   const preview::Situation situation = of(eval::only_left_helps()).value();
   memory::Case found;
   found.best = PolicyId::aes_left;
-  const ReplyExample example =
-      reply_example({.record = "fars_1", .family = "rear_end"}, situation, ToldCase{found, 0.83}, 1)
-          .value();
+  const ReplyExample example = reply_example({.record = "fars_1", .family = "rear_end"}, situation,
+                                             PromptCase{found, 0.83}, 1)
+                                   .value();
   EXPECT_THAT(example.prompt, HasSubstr("A case 83 % alike"));
 }
 

@@ -17,7 +17,7 @@
 namespace saca::danger_study {
 namespace {
 
-using learned_danger::ToldSafe;
+using learned_danger::PredictedSafe;
 using nlohmann::json;
 
 constexpr const char* count_schema = "saca.margins/2";
@@ -60,7 +60,7 @@ Result<MarginCount> read_margin_count(const std::filesystem::path& path, const s
   try {
     count.situations = all.at("situations").get<int>();
     for (std::size_t bin = 0; bin < learned_danger::num_bins; ++bin) {
-      const auto told = ToldSafe::from(
+      const auto told = PredictedSafe::from(
           all.at("told_safe").at(learned_danger::bin_names()[bin]).get<std::vector<int>>());
       if (!told) {
         return refuse("numbers that are none");
@@ -85,7 +85,7 @@ Result<MarginCount> counted_on(MarginCount count, const std::string& of,
   while (count.situations < task.situations && !long_work::interrupted()) {
     std::array<bool, learned_danger::num_bins> wanted{};
     std::transform(count.told.begin(), count.told.end(), wanted.begin(),
-                   [](const ToldSafe& told) { return told.may_have_margin(); });
+                   [](const PredictedSafe& told) { return told.may_have_margin(); });
     const auto some = worked_out<learned_danger::MarginSample>(
         drawn, count.situations, std::min(situations_at_once, task.situations - count.situations),
         [&](std::uint64_t seed) {

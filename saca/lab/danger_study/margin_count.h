@@ -17,7 +17,7 @@ namespace saca::danger_study {
 /// What was counted for margins so far: what an interrupted count goes on from.
 struct MarginCount {
   int situations = 0;
-  std::array<learned_danger::ToldSafe, learned_danger::num_bins> told;
+  std::array<learned_danger::PredictedSafe, learned_danger::num_bins> told;
 };
 
 /// Schema `saca.margins/2`.

@@ -330,8 +330,9 @@ void Encounter::compare_with_driver() {
   }
 }
 
-std::string learnt_text(const memory::Learnt& learnt, const std::optional<match::CaseId>& refuted) {
-  using How = memory::Learnt::How;
+std::string learnt_text(const memory::LearningResult& learnt,
+                        const std::optional<match::CaseId>& refuted) {
+  using How = memory::LearningResult::How;
   const std::string doubt = refuted ? fmt::format("; case {} is asked no more", *refuted) : "";
   switch (learnt.how) {
     case How::added:

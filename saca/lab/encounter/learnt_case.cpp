@@ -111,8 +111,9 @@ std::optional<match::CaseId> refuted_case(const Record& record) {
              : std::nullopt;
 }
 
-Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
-                             const std::optional<match::CaseId>& refuted, std::size_t bound) {
+Result<memory::LearningResult> learn(memory::Store& memory, const memory::Case& one,
+                                     const std::optional<match::CaseId>& refuted,
+                                     std::size_t bound) {
   if (refuted) {
     const auto quarantine = [](memory::Case& wrong) {
       wrong.trust = memory::Trust::quarantined;

@@ -60,9 +60,9 @@ struct Trigger {
 /// quarantined. A bank in a file is kept within a bound (memory::keep_within); one on a server
 /// belongs to many, who thin it when they want to.
 /// @return  what it came to, as the bank then is (Store::catch_up); or what memory could not do
-[[nodiscard]] Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
-                                           const std::optional<match::CaseId>& refuted,
-                                           std::size_t bound = memory::usual_bound);
+[[nodiscard]] Result<memory::LearningResult> learn(memory::Store& memory, const memory::Case& one,
+                                                   const std::optional<match::CaseId>& refuted,
+                                                   std::size_t bound = memory::usual_bound);
 
 /// Adds what of a model's review is true to the case that memory learnt; the figures alone it has.
 /// @return  what memory could not do

@@ -66,8 +66,8 @@ TEST(Learning, QuarantinesWhatItRefutes) {
   const match::CaseId id = memory.add(wrong).value();
   memory::Case right = wrong;
   right.happened = memory::PolicyHarms{0.0, 0.5};
-  const memory::Learnt learnt = learn(memory, right, id).value();
-  EXPECT_EQ(learnt.how, memory::Learnt::How::added) << "nobody is left to contradict";
+  const memory::LearningResult learnt = learn(memory, right, id).value();
+  EXPECT_EQ(learnt.how, memory::LearningResult::How::added) << "nobody is left to contradict";
   EXPECT_EQ(memory.find(id).value().value().trust, memory::Trust::quarantined);
   const memory::Match match = memory.recall(right.scene).value().value();
   EXPECT_EQ(match.found.id, learnt.id);

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A real run and its record: too slow to drift towards somebody who stands on the road.
+/// A real run towards somebody who stands on the road, too slow to drift, and its record as JSON.
 struct Run {
   Record record;
   json out;

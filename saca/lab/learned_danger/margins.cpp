@@ -53,7 +53,7 @@ const std::array<std::string, num_bins>& bin_names() {
   return names;
 }
 
-void ToldSafe::add(double told, bool was_hit) {
+void PredictedSafe::add(double told, bool was_hit) {
   expects(told < 0.0, "told safe");
   // With a margin of so many steps it is still told safe.
   const auto level = std::min(num_levels - 1, static_cast<std::size_t>(-told / step));
@@ -61,7 +61,7 @@ void ToldSafe::add(double told, bool was_hit) {
   hit_[level] += was_hit ? 1 : 0;
 }
 
-Share ToldSafe::hits_with(std::size_t level) const {
+Share PredictedSafe::hits_with(std::size_t level) const {
   Share share;
   for (std::size_t i = level; i < num_levels; ++i) {
     share.count += hit_[i];
@@ -70,7 +70,7 @@ Share ToldSafe::hits_with(std::size_t level) const {
   return share;
 }
 
-std::optional<double> ToldSafe::margin() const {
+std::optional<double> PredictedSafe::margin() const {
   std::optional<double> margin;
   for (std::size_t level = num_levels; level-- > 0;) {
     if (upper_bound(hits_with(level), margin_confidence) > most_hits) {
@@ -81,7 +81,7 @@ std::optional<double> ToldSafe::margin() const {
   return margin;
 }
 
-bool ToldSafe::may_have_margin() const {
+bool PredictedSafe::may_have_margin() const {
   constexpr double confidence = 0.999;
   const Share farthest = hits_with(num_levels - 1);
   using Binomial = boost::math::binomial_distribution<double>;
@@ -89,17 +89,17 @@ bool ToldSafe::may_have_margin() const {
                                                                 1.0 - confidence) <= most_hits;
 }
 
-std::vector<int> ToldSafe::numbers() const {
+std::vector<int> PredictedSafe::numbers() const {
   std::vector<int> all(of_.begin(), of_.end());
   all.insert(all.end(), hit_.begin(), hit_.end());
   return all;
 }
 
-std::optional<ToldSafe> ToldSafe::from(const std::vector<int>& numbers) {
+std::optional<PredictedSafe> PredictedSafe::from(const std::vector<int>& numbers) {
   if (numbers.size() != 2 * num_levels) {
     return std::nullopt;
   }
-  ToldSafe told;
+  PredictedSafe told;
   for (std::size_t i = 0; i < num_levels; ++i) {
     told.of_[i] = numbers[i];
     told.hit_[i] = numbers[num_levels + i];

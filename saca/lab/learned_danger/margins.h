@@ -39,7 +39,7 @@ constexpr std::size_t num_bins = 16;
 
 /// How often situations that were told safe were hit, by how safe they were told to be. Enough to
 /// fit a margin, and small: what a long count is resumed by.
-class ToldSafe {
+class PredictedSafe {
  public:
   static constexpr double step = 0.05;            ///< of what is told [m]
   static constexpr std::size_t num_levels = 100;  ///< the last one: by 5 m or more
@@ -60,7 +60,7 @@ class ToldSafe {
 
   [[nodiscard]] std::vector<int> numbers() const;
   /// @return  nullopt: no such numbers
-  [[nodiscard]] static std::optional<ToldSafe> from(const std::vector<int>& numbers);
+  [[nodiscard]] static std::optional<PredictedSafe> from(const std::vector<int>& numbers);
 
  private:
   std::array<int, num_levels> of_{};

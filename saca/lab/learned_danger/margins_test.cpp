@@ -28,7 +28,7 @@ TEST(Margins, BinsHaveNamesOfTheirOwn) {
 
 // 20,000 situations at each of three levels; hits only where 1 m or less is told.
 TEST(Margins, TheLeastWithWhichHitsAreRare) {
-  ToldSafe told;
+  PredictedSafe told;
   for (int i = 0; i < 20'000; ++i) {
     told.add(-0.31, i < 300);
     told.add(-1.01, i < 200);
@@ -43,12 +43,12 @@ TEST(Margins, TheLeastWithWhichHitsAreRare) {
 }
 
 TEST(Margins, AreNoneWithoutEnoughTrials) {
-  ToldSafe few;
+  PredictedSafe few;
   for (int i = 0; i < 10'000; ++i) {
     few.add(-20.0, false);
   }
   EXPECT_FALSE(few.margin().has_value()) << "13,809 are needed";
-  ToldSafe none_is_hit;
+  PredictedSafe none_is_hit;
   for (int i = 0; i < 14'000; ++i) {
     none_is_hit.add(-20.0, false);
   }
@@ -58,7 +58,7 @@ TEST(Margins, AreNoneWithoutEnoughTrials) {
 // At 0.1 % four of 400 have a chance of 0.08 %, three one of 0.8 %.
 TEST(Margins, ABinWithTooManyHitsOfTheFarthestNeedNotBeCountedOn) {
   const auto told = [](int hits, double metres) {
-    ToldSafe all;
+    PredictedSafe all;
     for (int i = 0; i < 400; ++i) {
       all.add(-metres, i < hits);
     }
@@ -67,35 +67,35 @@ TEST(Margins, ABinWithTooManyHitsOfTheFarthestNeedNotBeCountedOn) {
   EXPECT_FALSE(told(4, 6.0).may_have_margin());
   EXPECT_TRUE(told(3, 6.0).may_have_margin());
   EXPECT_TRUE(told(400, 4.0).may_have_margin()) << "5 m may be enough";
-  EXPECT_TRUE(ToldSafe().may_have_margin());
+  EXPECT_TRUE(PredictedSafe().may_have_margin());
 }
 
 // What a margin leaves out is told safe by it or less: no rounding lets a hit through.
 TEST(Margins, LeaveOutWhatTheyAreFittedTo) {
   for (const double told : {-0.05, -0.1, -0.15, -0.149999, -1.0, -2.35}) {
-    ToldSafe all;
+    PredictedSafe all;
     all.add(told, true);
     std::size_t level = 0;
-    while (level < ToldSafe::num_levels && all.hits_with(level).count > 0) {
+    while (level < PredictedSafe::num_levels && all.hits_with(level).count > 0) {
       ++level;
     }
-    const double margin = ToldSafe::step * static_cast<double>(level);
+    const double margin = PredictedSafe::step * static_cast<double>(level);
     EXPECT_GE(told + margin, 0.0) << told;
-    EXPECT_LE(told + margin, ToldSafe::step + 1e-9) << told;
+    EXPECT_LE(told + margin, PredictedSafe::step + 1e-9) << told;
   }
 }
 
 TEST(Margins, CountsComeBackFromTheirNumbers) {
-  ToldSafe told;
+  PredictedSafe told;
   told.add(-0.3, true);
   told.add(-9.0, false);
-  const auto back = ToldSafe::from(told.numbers());
+  const auto back = PredictedSafe::from(told.numbers());
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(back->numbers(), told.numbers());
-  EXPECT_FALSE(ToldSafe::from({1, 2, 3}).has_value());
+  EXPECT_FALSE(PredictedSafe::from({1, 2, 3}).has_value());
   std::vector<int> more_hits = told.numbers();
-  more_hits[ToldSafe::num_levels] = 1;
-  EXPECT_FALSE(ToldSafe::from(more_hits).has_value());
+  more_hits[PredictedSafe::num_levels] = 1;
+  EXPECT_FALSE(PredictedSafe::from(more_hits).has_value());
 }
 
 TEST(Margins, StandAmongTheWords) {

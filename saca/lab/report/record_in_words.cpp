@@ -14,7 +14,7 @@
 #include "saca/base/core/printable.h"
 #include "saca/base/formats/json_reader.h"
 #include "saca/base/formats/json_text.h"
-#include "saca/lab/report/verdicts_told.h"
+#include "saca/lab/report/verdicts_in_words.h"
 #include "saca/onboard/manoeuvre/plan.h"
 #include "saca/onboard/reflex/reflex_plane.h"
 

@@ -25,7 +25,7 @@ constexpr double same_encounter = 0.25;
 void add_lessons(Case& one, std::span<const std::string> lessons);
 
 /// What learning a case came to.
-struct Learnt {
+struct LearningResult {
   enum class How : std::uint8_t {
     added,         ///< nothing stored was the same encounter
     merged,        ///< into the case `id`, which was

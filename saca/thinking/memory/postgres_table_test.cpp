@@ -64,8 +64,8 @@ TEST_F(Fleet, KeepsCasesAsAFileDoes) {
   }
   EXPECT_EQ(there.add_all(cases).value(), here.add_all(cases).value());
   EXPECT_EQ(there.add(example_case(20)).value(), here.add(example_case(20)).value());
-  EXPECT_EQ(there.learn(example_case(4)).value().how, Learnt::How::merged);
-  EXPECT_EQ(here.learn(example_case(4)).value().how, Learnt::How::merged);
+  EXPECT_EQ(there.learn(example_case(4)).value().how, LearningResult::How::merged);
+  EXPECT_EQ(here.learn(example_case(4)).value().how, LearningResult::How::merged);
   Case corrected = example_case(5);
   corrected.id = 16;
   corrected.review = "otherwise";

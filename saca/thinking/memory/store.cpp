@@ -201,7 +201,7 @@ Result<std::vector<match::CaseId>> Store::add_in_turn(std::span<const Case> case
   return ids;
 }
 
-Result<Learnt> Store::learn_now(const Case& one) {
+Result<LearningResult> Store::learn_now(const Case& one) {
   if (auto error = state_->catch_up()) {
     return *std::move(error);
   }
@@ -221,8 +221,8 @@ Result<Learnt> Store::learn_now(const Case& one) {
       continue;
     } else if (!contradict(known, one)) {
       auto error = state_->rewrite_and_relearn(merged(known, one));
-      return error ? Result<Learnt>(*std::move(error))
-                   : Learnt{.how = Learnt::How::merged, .id = id, .other = id};
+      return error ? Result<LearningResult>(*std::move(error))
+                   : LearningResult{.how = LearningResult::How::merged, .id = id, .other = id};
     } else if (!doubted) {
       doubted = std::move(known);
     }
@@ -239,13 +239,13 @@ Result<Learnt> Store::learn_now(const Case& one) {
   if (!id.has_value()) {
     return id.error();
   }
-  return doubted ? Learnt{Learnt::How::contradicted, id.value(), doubted->id}
-                 : Learnt{Learnt::How::added, id.value(), 0};
+  return doubted ? LearningResult{LearningResult::How::contradicted, id.value(), doubted->id}
+                 : LearningResult{LearningResult::How::added, id.value(), 0};
 }
 
-Result<Learnt> Store::learn(const Case& one) {
+Result<LearningResult> Store::learn(const Case& one) {
   check(one);
-  Learnt learnt;
+  LearningResult learnt;
   auto error = state_->table->in_one_transaction([&]() -> std::optional<Error> {
     const auto done = learn_now(one);
     if (!done.has_value()) {

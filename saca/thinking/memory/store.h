@@ -94,7 +94,7 @@ class Store {
   /// encounter of the same car and does not contradict it (`merged`). Where each of these
   /// contradicts it, it is added, and it and the nearest are marked unchecked. All of it happens or
   /// nothing; who is quarantined is the same as nothing.
-  [[nodiscard]] Result<Learnt> learn(const Case& one);
+  [[nodiscard]] Result<LearningResult> learn(const Case& one);
 
   /// Puts all of them on the disk, as `add`, or none. Where the bank is empty they keep their ids,
   /// if these are positive, leave room for new ones, and each comes once; else they get new ones.
@@ -153,7 +153,7 @@ class Store {
   [[nodiscard]] Result<std::vector<match::CaseId>> add_in_turn(std::span<const Case> cases,
                                                                Adding how);
   /// In a transaction; as learn().
-  [[nodiscard]] Result<Learnt> learn_now(const Case& one);
+  [[nodiscard]] Result<LearningResult> learn_now(const Case& one);
 
   std::unique_ptr<State> state_;
 };

@@ -291,13 +291,14 @@ Case best_is(manoeuvre::PolicyId policy, double speed) {
 
 TEST_F(Memory, MergesWhatItMeetsAgain) {
   Store store = opened();
-  const Learnt first = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value();
-  EXPECT_EQ(first.how, Learnt::How::added);
-  EXPECT_EQ(store.learn(best_is(manoeuvre::PolicyId::aeb, 16.0)).value().how, Learnt::How::added);
+  const LearningResult first = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value();
+  EXPECT_EQ(first.how, LearningResult::How::added);
+  EXPECT_EQ(store.learn(best_is(manoeuvre::PolicyId::aeb, 16.0)).value().how,
+            LearningResult::How::added);
   Case again = best_is(manoeuvre::PolicyId::aeb, 14.1);
   again.harm = 0.5;
-  const Learnt second = store.learn(again).value();
-  EXPECT_EQ(second.how, Learnt::How::merged);
+  const LearningResult second = store.learn(again).value();
+  EXPECT_EQ(second.how, LearningResult::How::merged);
   EXPECT_EQ(second.id, first.id);
   const Case kept = opened().find(first.id).value().value();
   EXPECT_EQ(kept.count, 2);
@@ -332,8 +333,8 @@ TEST_F(Memory, MergesForTwoProcessesAtOnce) {
 TEST_F(Memory, KeepsWhatContradictsAndTrustsNeither) {
   Store store = opened();
   const match::CaseId old = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id;
-  const Learnt other = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.1)).value();
-  EXPECT_EQ(other.how, Learnt::How::contradicted);
+  const LearningResult other = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.1)).value();
+  EXPECT_EQ(other.how, LearningResult::How::contradicted);
   EXPECT_EQ(other.other, old);
   for (const match::CaseId id : {old, other.id}) {
     EXPECT_EQ(opened().find(id).value().value().trust, Trust::unchecked);
@@ -349,8 +350,8 @@ TEST_F(Memory, MergesIntoTheOneThatAgrees) {
   const match::CaseId aeb = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id;
   const match::CaseId left = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.1)).value().id;
   for (int i = 0; i < 3; ++i) {
-    const Learnt again = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.0)).value();
-    EXPECT_EQ(again.how, Learnt::How::merged);
+    const LearningResult again = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.0)).value();
+    EXPECT_EQ(again.how, LearningResult::How::merged);
     EXPECT_EQ(again.id, left) << "case " << aeb << " is nearer, and contradicts it";
   }
   EXPECT_EQ(opened().size(), 2U);
@@ -364,8 +365,8 @@ TEST_F(Memory, MergesIntoNobodyWhoIsQuarantined) {
   Store other = opened();
   wrong.trust = Trust::quarantined;
   ASSERT_FALSE(other.change(wrong.id, becomes(wrong)).has_value());
-  const Learnt again = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value();
-  EXPECT_EQ(again.how, Learnt::How::added);
+  const LearningResult again = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value();
+  EXPECT_EQ(again.how, LearningResult::How::added);
   EXPECT_EQ(opened().recall(wrong.scene).value().value().found.id, again.id);
 }
 
@@ -378,10 +379,10 @@ TEST_F(Memory, MergesNoEncountersOfDifferentCars) {
   one.made_with = made_with("a");
   const match::CaseId first = store.learn(one).value().id;
   one.made_with = made_with("b");
-  EXPECT_EQ(store.learn(one).value().how, Learnt::How::added);
+  EXPECT_EQ(store.learn(one).value().how, LearningResult::How::added);
   EXPECT_EQ(store.learn(one).value().id, first + 1);
   one.made_with.clear();
-  EXPECT_EQ(store.learn(one).value().how, Learnt::How::merged) << "nobody knows which";
+  EXPECT_EQ(store.learn(one).value().how, LearningResult::How::merged) << "nobody knows which";
 }
 
 // What another car learnt is asked, but not believed.

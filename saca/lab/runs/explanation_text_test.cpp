@@ -1,8 +1,8 @@
-#include "saca/lab/runs/explanation_told.h"
+#include "saca/lab/runs/explanation_text.h"
 
 #include <gtest/gtest.h>
 
-namespace saca::runs::explanation_told_test {
+namespace saca::runs::explanation_text_test {
 namespace {
 
 using nlohmann::json;
@@ -26,4 +26,4 @@ TEST(AnExplanation, IsATextOfParagraphs) {
 }
 
 }  // namespace
-}  // namespace saca::runs::explanation_told_test
+}  // namespace saca::runs::explanation_text_test

@@ -1,8 +1,8 @@
-#include "saca/lab/report/verdicts_told.h"
+#include "saca/lab/report/verdicts_in_words.h"
 
 #include <gtest/gtest.h>
 
-namespace saca::report::verdicts_told_test {
+namespace saca::report::verdicts_in_words_test {
 namespace {
 
 using nlohmann::json;
@@ -56,7 +56,7 @@ json change(double time, const json& plan, const char* reason) {
   return one;
 }
 
-TEST(VerdictsTold, SayFromWhenOnTheOtherPlanHarmsLess) {
+TEST(VerdictsInWords, SayFromWhenOnTheOtherPlanHarmsLess) {
   json told = record({{0.3, 0.8, 0.2}, {0.15, 0.8, 0.25}, {0.05, 0.8, 0.3}});
   // Speeds are 9, 8 and 7 m/s then: the second swerve is to half of it.
   const json swerve = change(2.36, plan(3, "ES-B-L", 3.5, 0.05, nullptr), "better by far");
@@ -72,7 +72,7 @@ TEST(VerdictsTold, SayFromWhenOnTheOtherPlanHarmsLess) {
           "By that of 2.30 s, when it was switched, it was 0.0500 and 0.3000."}));
 }
 
-TEST(VerdictsTold, LookNoFurtherBackThanThePlanThatWasLeft) {
+TEST(VerdictsInWords, LookNoFurtherBackThanThePlanThatWasLeft) {
   json told = record({{0.05, 0.8, 0.3}, {0.06, 0.8, 0.3}, {0.07, 0.8, 0.3}});
   const json first = change(2.15, plan(0, "AEB", nullptr, 0.31, nullptr), "better by far");
   const json second = change(2.36, plan(3, "ES-B-L", 3.5, 0.07, nullptr), "better by far");
@@ -84,7 +84,7 @@ TEST(VerdictsTold, LookNoFurtherBackThanThePlanThatWasLeft) {
                        "By that of 2.30 s, when it was switched, it was 0.0700 and 0.3000."}));
 }
 
-TEST(VerdictsTold, SayFromWhenOnNothingHarmsNobody) {
+TEST(VerdictsInWords, SayFromWhenOnNothingHarmsNobody) {
   json told = record({{0.3, 0.8, 0.2}, {0.3, 0.0, 0.2}, {0.3, 0.0, 0.2}});
   // A shorter verdict: braking is nearly harmless, and only doing nothing is held beside it.
   json& last = told["verdicts"]["in_hand"].back();
@@ -99,7 +99,7 @@ TEST(VerdictsTold, SayFromWhenOnNothingHarmsNobody) {
                  "any draw."}));
 }
 
-TEST(VerdictsTold, SayWhatMadeSomethingNeededAfterAll) {
+TEST(VerdictsInWords, SayWhatMadeSomethingNeededAfterAll) {
   json told = record({{0.3, 0.8, 0.0}, {0.04, 0.8, 0.7}});
   const json swerve = change(2.26, plan(3, "ES-B-L", 4.0, 0.04, nullptr), "needed after all");
   told["switches"].push_back(swerve);
@@ -109,7 +109,7 @@ TEST(VerdictsTold, SayWhatMadeSomethingNeededAfterAll) {
                        "harm 0.0400."}));
 }
 
-TEST(VerdictsTold, SayWhatAnotherPlanPromisedWhereNothingWasSwitched) {
+TEST(VerdictsInWords, SayWhatAnotherPlanPromisedWhereNothingWasSwitched) {
   EXPECT_EQ(why_not_switched(record({{0.295, 0.8, 0.3}, {0.29, 0.8, 0.302}})),
             (Sentences{"The most that another plan promised was by the verdict of 2.20 s: ES-B-L "
                        "to 4.0 m/s was expected to harm 0.2900, and going on 0.3020."}));
@@ -118,7 +118,7 @@ TEST(VerdictsTold, SayWhatAnotherPlanPromisedWhereNothingWasSwitched) {
                        "on."}));
 }
 
-TEST(VerdictsTold, SayNothingWhereTheRecordHoldsNoVerdict) {
+TEST(VerdictsInWords, SayNothingWhereTheRecordHoldsNoVerdict) {
   json old = record({{0.05, 0.8, 0.3}});
   const json swerve = change(2.36, plan(3, "ES-B-L", 4.5, 0.05, nullptr), "better by far");
   EXPECT_FALSE(why_then(old, swerve).empty());
@@ -132,4 +132,4 @@ TEST(VerdictsTold, SayNothingWhereTheRecordHoldsNoVerdict) {
 }
 
 }  // namespace
-}  // namespace saca::report::verdicts_told_test
+}  // namespace saca::report::verdicts_in_words_test

@@ -1,4 +1,4 @@
-#include "saca/lab/runs/explanation_told.h"
+#include "saca/lab/runs/explanation_text.h"
 
 #include <utility>
 

@@ -1,10 +1,10 @@
-#include "saca/lab/cases/told_cases.h"
+#include "saca/lab/cases/prompt_cases.h"
 
 #include <gtest/gtest.h>
 
 #include "saca/onboard/match/example_scenes.h"
 
-namespace saca::cases::told_cases_test {
+namespace saca::cases::prompt_cases_test {
 namespace {
 
 memory::Case case_in(const world::Scene& scene, match::CaseId id, manoeuvre::PolicyId best) {
@@ -15,9 +15,9 @@ memory::Case case_in(const world::Scene& scene, match::CaseId id, manoeuvre::Pol
   return one;
 }
 
-TEST(ToldCasesTest, TellsOfTheMostAlike) {
-  const ToldCases told({case_in(match::empty_road(), 7, manoeuvre::PolicyId::no_intervention),
-                        case_in(match::crossing_truck(), 3, manoeuvre::PolicyId::aeb)});
+TEST(PromptCasesTest, TellsOfTheMostAlike) {
+  const PromptCases told({case_in(match::empty_road(), 7, manoeuvre::PolicyId::no_intervention),
+                          case_in(match::crossing_truck(), 3, manoeuvre::PolicyId::aeb)});
   const auto found = told.in(match::crossing_truck());
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->found.id, 3);
@@ -25,9 +25,9 @@ TEST(ToldCasesTest, TellsOfTheMostAlike) {
   EXPECT_EQ(told.in(match::empty_road())->found.id, 7);
 }
 
-TEST(ToldCasesTest, OfNoneThereIsNothingToTell) {
-  EXPECT_FALSE(ToldCases({}).in(match::empty_road()).has_value());
+TEST(PromptCasesTest, OfNoneThereIsNothingToTell) {
+  EXPECT_FALSE(PromptCases({}).in(match::empty_road()).has_value());
 }
 
 }  // namespace
-}  // namespace saca::cases::told_cases_test
+}  // namespace saca::cases::prompt_cases_test

@@ -1,4 +1,4 @@
-#include "saca/lab/report/verdicts_told.h"
+#include "saca/lab/report/verdicts_in_words.h"
 
 #include <fmt/core.h>
 

@@ -11,12 +11,12 @@
 namespace saca::cases {
 
 /// Cases that prompts tell of, as a run's memory would: asked by several threads.
-class ToldCases {
+class PromptCases {
  public:
-  explicit ToldCases(std::vector<memory::Case> cases);
+  explicit PromptCases(std::vector<memory::Case> cases);
 
   /// The most alike of those that speak for what is recalled; nullopt: nothing is recalled.
-  [[nodiscard]] std::optional<ToldCase> in(const world::Scene& scene) const;
+  [[nodiscard]] std::optional<PromptCase> in(const world::Scene& scene) const;
 
  private:
   std::vector<memory::Case> cases_;
