@@ -524,12 +524,12 @@ struct Engine::State {
   std::optional<Error> rehearse(std::size_t count, Clock& its_clock) {
     const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
                               [](std::size_t, AnswerKind, const std::vector<double>&) {}};
-    auto rehearsed =
+    auto to_rehearse =
         tasks(std::vector<std::string>(count, "Ready?"), {.max_tokens = rehearsed_tokens});
-    if (!rehearsed.has_value()) {
-      return rehearsed.error();
+    if (!to_rehearse.has_value()) {
+      return to_rehearse.error();
     }
-    think(std::move(rehearsed).value(), Clock::Time::max(), rehearsed_tokens, its_clock, nobody);
+    think(std::move(to_rehearse).value(), Clock::Time::max(), rehearsed_tokens, its_clock, nobody);
     return std::nullopt;
   }
 };

@@ -80,7 +80,7 @@ collision::Outcome on_average(const std::vector<collision::Outcome>& outcomes) {
 }
 
 /// All plans, what they end in, and which of them stands for its policy.
-struct Compared {
+struct PlanComparison {
   std::vector<encounter::Hindsight> written;              // with nothing left to chance
   std::vector<std::vector<collision::Outcome>> by_draws;  // of each plan
   Tried average;                                          // without draws: as written
@@ -91,8 +91,9 @@ struct Compared {
   }
 };
 
-Compared compared(std::vector<encounter::Hindsight> written, const std::vector<Tried>& draws) {
-  Compared plans{.written = std::move(written), .by_draws = {}, .average = {}, .stands = {}};
+PlanComparison compared(std::vector<encounter::Hindsight> written,
+                        const std::vector<Tried>& draws) {
+  PlanComparison plans{.written = std::move(written), .by_draws = {}, .average = {}, .stands = {}};
   plans.by_draws.resize(plans.written.size());
   plans.average = outcomes_of(plans.written);
   for (std::size_t i = 0; i < plans.written.size(); ++i) {
@@ -124,8 +125,9 @@ Oracle oracle(const scenario::Scenario& scenario, const manoeuvre::Car& car,
   expects(options.draws == 0 || options.draws >= 2, "draws is 0, or 2 at least");
   expects(options.threads >= 1, "threads >= 1");
   const DecisionPoint point = decision_point_at(scenario, car, options.time);
-  const Compared plans = compared(std::move(tried_of({&point, 1}, car, harm, options).front()),
-                                  all_draws(scenario, car, harm, options));
+  const PlanComparison plans =
+      compared(std::move(tried_of({&point, 1}, car, harm, options).front()),
+               all_draws(scenario, car, harm, options));
   const bool is_sure = options.draws == 0;
   Oracle told;
   told.scene = point.scene;

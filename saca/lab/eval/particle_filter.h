@@ -163,11 +163,11 @@ class ParticleFilter {
   [[nodiscard]] bool weigh(RoadUser& watched, const Measurement& measured, double dt) const;
   /// Have the weights gathered on few particles?
   [[nodiscard]] static bool is_gathered(const RoadUser& watched);
-  /// @param fresh  as at_sight: they take the place of as many
   /// So many of its particles, each as often as its weight says (systematic resampling).
   static std::vector<Particle> systematic_draws(RoadUser& watched, std::size_t count);
   /// Moves one a little, so that those drawn several times differ.
   static void disperse(Particle& one, std::mt19937_64& rng);
+  /// @param fresh  as at_sight: they take the place of as many
   static void resample(RoadUser& watched, const std::vector<Particle>& fresh);
 
   scenario::PerceptionModel errors_;

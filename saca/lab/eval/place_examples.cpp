@@ -45,8 +45,8 @@ void add_places(const encounter::Stage& stage, const ForecastWindow& window,
   example.known = true;
 }
 
-/// All of an encounter in which nothing is done.
-Result<std::vector<SeenAndTrue>> looks_at(const encounter::Stage& stage) {
+/// Looks 0.1 s apart at an encounter in which nothing is done, to its end.
+Result<std::vector<SeenAndTrue>> played_looks(const encounter::Stage& stage) {
   constexpr int steps_apart = 10;  // of the loop: 0.1 s
   std::vector<SeenAndTrue> looks;
   encounter::ClosedLoop loop(stage);
@@ -66,7 +66,7 @@ Result<std::vector<SeenAndTrue>> looks_at(const encounter::Stage& stage) {
 
 Result<std::vector<std::vector<PlaceExample>>> place_examples(const encounter::Stage& stage,
                                                               const ForecastWindow& window) {
-  const auto played = looks_at(stage);
+  const auto played = played_looks(stage);
   if (!played.has_value()) {
     return played.error();
   }

@@ -20,7 +20,7 @@ struct FittedScale {
 inline constexpr std::array fitted_scales{
     FittedScale{"speed", &match::Scales::speed},
     FittedScale{"log_grip", &match::Scales::log_grip},
-    FittedScale{"room", &match::Scales::to_edge},
+    FittedScale{"room", &match::Scales::to_edge},  // the name in documents
     FittedScale{"along_now", &match::Scales::along_now},
     FittedScale{"across_now", &match::Scales::across_now},
     FittedScale{"across_then", &match::Scales::across_then},

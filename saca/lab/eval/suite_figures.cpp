@@ -136,7 +136,7 @@ std::optional<double> happened(const Comparison& comparison, const manoeuvre::Pl
   return tried == nullptr ? std::nullopt : tried->harm;
 }
 
-using Row = const SuiteRow&;
+using RowRef = const SuiteRow&;
 using Aeb = std::optional<std::size_t>;
 
 /// One method's rows, of which means are taken.
@@ -157,33 +157,33 @@ struct MethodRows {
 
 void fill_harms(const MethodRows& of, MethodFigures& figures) {
   figures.harm =
-      of.mean([](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
-  figures.regret = of.mean([](Row row, std::size_t m, Aeb) {
+      of.mean([](RowRef row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
+  figures.regret = of.mean([](RowRef row, std::size_t m, Aeb) {
     return std::optional(run_of(row, m).harm - row.risk.best_harm);
   });
-  figures.published_regret = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.published_regret = of.mean([](RowRef row, std::size_t m, Aeb) {
     return std::optional(run_of(row, m).harm - row.risk.published_best_harm);
   });
   figures.over_aeb = of.mean(over_aeb);
   figures.collision_loss = of.mean(
-      [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });
+      [](RowRef row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });
 }
 
-void fill_shares(const MethodRows& of, MethodFigures& figures) {
+void fill_decisions(const MethodRows& of, MethodFigures& figures) {
   figures.contact =
-      of.mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
-  figures.right = of.mean([](Row row, std::size_t m, Aeb) {
+      of.mean([](RowRef row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
+  figures.right = of.mean([](RowRef row, std::size_t m, Aeb) {
     return flag(collision::harm_class(run_of(row, m).harm) <=
                 collision::harm_class(row.risk.best_harm));
   });
-  figures.worse_than_aeb = of.mean([](Row row, std::size_t m, Aeb reference) {
+  figures.worse_than_aeb = of.mean([](RowRef row, std::size_t m, Aeb reference) {
     const auto more = over_aeb(row, m, reference);
     return more ? flag(*more > material) : std::nullopt;
   });
-  figures.needless = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.needless = of.mean([](RowRef row, std::size_t m, Aeb) {
     return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
   });
-  figures.switches = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.switches = of.mean([](RowRef row, std::size_t m, Aeb) {
     return std::optional(static_cast<double>(run_of(row, m).switches));
   });
 }
@@ -198,16 +198,16 @@ std::optional<ExpectedFigures> expected_figures(const MethodRows& of) {
   }
   ExpectedFigures figures;
   figures.expected = of.mean(expectation<&encounter::ExpectedAtDecision::harm>);
-  figures.happened = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.happened = of.mean([](RowRef row, std::size_t m, Aeb) {
     const auto* const told = expected_at_trigger(row, m);
     return told != nullptr ? happened(row.risk, told->plan) : std::nullopt;
   });
   figures.braking_expected = of.mean(expectation<&encounter::ExpectedAtDecision::braking_harm>);
-  figures.braking_happened = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.braking_happened = of.mean([](RowRef row, std::size_t m, Aeb) {
     return expected_at_trigger(row, m) != nullptr ? happened(row.risk, manoeuvre::full_braking)
                                                   : std::nullopt;
   });
-  figures.knowingly_worse = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.knowingly_worse = of.mean([](RowRef row, std::size_t m, Aeb) {
     const auto* const told = expected_at_trigger(row, m);
     return told != nullptr ? flag(told->harm > told->braking_harm + material) : std::nullopt;
   });
@@ -221,10 +221,10 @@ void fill_twins(const MethodRows& of, MethodFigures& figures) {
   if (!twins) {
     return;
   }
-  figures.false_trigger_loss = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.false_trigger_loss = of.mean([](RowRef row, std::size_t m, Aeb) {
     return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
   });
-  figures.false_triggers = of.mean([](Row row, std::size_t m, Aeb) {
+  figures.false_triggers = of.mean([](RowRef row, std::size_t m, Aeb) {
     return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
   });
 }
@@ -246,7 +246,7 @@ void count_decisions(const MethodRows& of, MethodFigures& figures) {
 MethodFigures figures_of(const MethodRows& of, const std::string& name) {
   MethodFigures figures{.method = name};
   fill_harms(of, figures);
-  fill_shares(of, figures);
+  fill_decisions(of, figures);
   figures.expected = expected_figures(of);
   fill_twins(of, figures);
   count_decisions(of, figures);

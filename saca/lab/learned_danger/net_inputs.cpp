@@ -67,7 +67,7 @@ Passing passing(const Vec2& p, const Vec2& v_rel) {
   return {time, (v_rel.x * p.y - v_rel.y * p.x) / std::sqrt(square)};
 }
 
-/// Puts one input behind the other.
+/// Puts one input after the other.
 class Inputs {
  public:
   explicit Inputs(std::array<float, num_net_inputs>& inputs) : inputs_(inputs) {}
@@ -115,8 +115,9 @@ EgoAndObstacle pair_of(const world::Footprint& body, const Observation& seen, st
 }
 
 void add_ego(const Observation& seen, Inputs& inputs) {
-  // Of velocity ahead and to the left, yaw rate, acceleration, steering, brakes, motor and grip.
-  constexpr std::array<double, 9> unit{20.0, 3.0, 0.5, 8.0, 8.0, 0.2, 8.0, 4.0, 1.0};
+  // Of velocity and acceleration ahead and to the left with the yaw rate between them, of steering,
+  // brakes, motor and grip.
+  constexpr std::array<double, num_ego_features> unit{20.0, 3.0, 0.5, 8.0, 8.0, 0.2, 8.0, 4.0, 1.0};
   for (std::size_t i = 0; i < unit.size(); ++i) {
     inputs.add(static_cast<double>(seen[i]) / unit[i]);
   }

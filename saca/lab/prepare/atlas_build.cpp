@@ -216,7 +216,7 @@ std::string title_of(const manoeuvre::Car& car, const atlas::AtlasGrid& grid) {
 }
 
 // What is known of an atlas that is being built.
-struct Known {
+struct KnownNodes {
   std::shared_ptr<std::vector<atlas::AtlasNode>> nodes;
   std::vector<char> is_known;      // of each node
   std::optional<Journal> journal;  // that remembers them
@@ -232,11 +232,11 @@ struct Known {
   }
 };
 
-Result<Known> known_nodes(const manoeuvre::Car& car, const atlas::AtlasGrid& grid,
-                          const std::filesystem::path& journal) {
-  Known known{.nodes = std::make_shared<std::vector<atlas::AtlasNode>>(atlas::num_nodes(grid)),
-              .is_known = std::vector<char>(atlas::num_nodes(grid), 0),
-              .journal = {}};
+Result<KnownNodes> known_nodes(const manoeuvre::Car& car, const atlas::AtlasGrid& grid,
+                               const std::filesystem::path& journal) {
+  KnownNodes known{.nodes = std::make_shared<std::vector<atlas::AtlasNode>>(atlas::num_nodes(grid)),
+                   .is_known = std::vector<char>(atlas::num_nodes(grid), 0),
+                   .journal = {}};
   if (journal.empty()) {
     return known;
   }
@@ -275,7 +275,7 @@ Result<AtlasNodes> build_atlas(const manoeuvre::Car& car, const atlas::AtlasGrid
   if (!opened.has_value()) {
     return opened.error();
   }
-  Known known = std::move(opened).value();
+  KnownNodes known = std::move(opened).value();
   const std::vector<std::size_t> unknown = known.unknown();
   AtlasProgress progress;
   progress.remembered = known.nodes->size() - unknown.size();

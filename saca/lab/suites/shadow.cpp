@@ -153,7 +153,7 @@ class Decider {
     avoider_.stand_down();
     return begun;
   }
-  /// For whom it acted last; nullptr: it has not.
+  /// Whom it feared last; nullptr: nobody so far.
   [[nodiscard]] const world::Actor* feared() const { return feared_ ? &*feared_ : nullptr; }
 
  private:
@@ -169,10 +169,11 @@ class Decider {
 };
 
 /// What is found in a drive.
-class Watch {
+class DriveFindings {
  public:
-  /// All of it outlives the watch.
-  Watch(const scenario::Scenario& world, const ShadowSetup& setup, const eval::ShadowWindow& window)
+  /// What it is given outlives it.
+  DriveFindings(const scenario::Scenario& world, const ShadowSetup& setup,
+                const eval::ShadowWindow& window)
       : world_(world), setup_(setup), window_(window) {}
 
   void note_preview(const world::Scene& seen, const intent::Beliefs& beliefs) {
@@ -193,7 +194,7 @@ class Watch {
     }
   }
   /// @param begun   what the one who decides begins in this look
-  /// @param feared  for whom
+  /// @param feared  for whom; not null where something begins
   void note_intervention(const world::Scene& seen, std::optional<ShadowIntervention> begun,
                          const world::Actor* feared) {
     if (intervention_.look(seen.time, begun.has_value())) {
@@ -208,7 +209,7 @@ class Watch {
     }
     last_p_W_ = seen.ego.X_WB.p;
   }
-  [[nodiscard]] ShadowDrive found() && {
+  [[nodiscard]] ShadowDrive all() && {
     drive_.seconds = num_steps_ * encounter::ClosedLoop::step;
     return std::move(drive_);
   }
@@ -257,7 +258,7 @@ Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario, const Shado
   sim::Stepper stepper(world, *setup.car);
   intent::Observer observer(*setup.intent);
   reflex::TrackConfirmation tracks;
-  Watch watch(world, setup, window);
+  DriveFindings findings(world, setup, window);
   std::optional<Decider> decider;
   if (setup.saca != nullptr) {
     decider.emplace(setup);
@@ -276,14 +277,14 @@ Result<ShadowDrive> shadow_drive(const scenario::Scenario& scenario, const Shado
       if (window.lane_ahead && leaves_lane(seen, *window.lane_ahead, setup.thresholds.trigger)) {
         break;
       }
-      watch.note_preview(seen, beliefs);
-      watch.note_trigger(seen, tracks);
-      watch.note_intervention(seen, std::move(begun), decider ? decider->feared() : nullptr);
-      watch.note_way(seen);
+      findings.note_preview(seen, beliefs);
+      findings.note_trigger(seen, tracks);
+      findings.note_intervention(seen, std::move(begun), decider ? decider->feared() : nullptr);
+      findings.note_way(seen);
     }
     advance_to_next_look(stepper);
   }
-  return std::move(watch).found();
+  return std::move(findings).all();
 }
 
 ShadowPicture shadow_picture(const scenario::Scenario& scenario, const ShadowSetup& setup,

@@ -179,7 +179,7 @@ TEST(Atlas, ALaneThatBendsTakesTheWayAlong) {
 }
 
 // True grip anywhere in the band: the drive lies between those at its ends, nine times of ten.
-TEST(Atlas, SwayHoldsNineOfTenDrivesOnOtherGrip) {
+TEST(Atlas, SensitivityToGripHoldsNineOfTenDrivesOnOtherGrip) {
   std::mt19937_64 rng(11);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);

@@ -103,17 +103,17 @@ class TrackBounds {
   TrackBounds(const ClearanceBound& least, const world::Track& track, int parts)
       : least_(least), track_(track), parts_(parts) {}
 
-  /// All that is left of the way to the next pose is farther than the clearance.
+  /// All that is left of the way to the next pose is farther from the edge than that.
   bool is_far(int look, double clearance) {
     const std::size_t pose = std::min(static_cast<std::size_t>(look / parts_), last_pose());
     if (!bound_ || pose != bounded_) {
       const bool goes_on = bound_ && pose == bounded_ + 1;
       const Pose& here = track_.X_WA[pose];
       const Pose& next = track_.X_WA[std::min(pose + 1, last_pose())];
-      const double now = goes_on ? before_ : least_.at(here);
-      before_ = least_.at(next);
+      const double now = goes_on ? at_next_ : least_.at(here);
+      at_next_ = least_.at(next);
       bounded_ = pose;
-      bound_ = std::min(now, before_) - least_.between(here, next);
+      bound_ = std::min(now, at_next_) - least_.between(here, next);
     }
     return *bound_ > clearance;
   }
@@ -127,7 +127,7 @@ class TrackBounds {
   const world::Track& track_;
   int parts_;
   std::size_t bounded_ = 0;      ///< the pose whose way to the next is bounded
-  double before_ = 0.0;          ///< of the pose behind it
+  double at_next_ = 0.0;         ///< the bound at the pose after it, with which the next way begins
   std::optional<double> bound_;  ///< all the way
 };
 

@@ -172,19 +172,11 @@ std::array<float, num_groups> group_gaps(const PoseSamples& a, const PoseSamples
 
 namespace {
 
-// Samples from the begin of the first group to the end of the last.
-struct SampleRange {
-  std::size_t begin;
-  std::size_t end;
-};
-
-using PaddedRow = std::array<float, num_spans + 8>;
-
 // Along the axes of both boxes: how far apart the middles are, and how far both reach. `size` is
 // that of the way between the middles, about.
 [[gnu::always_inline]] inline void fill_axes_of_boxes(const PoseSamples& a, const PoseSamples& b,
                                                       const SampleRange& range, PairSamples& near,
-                                                      PaddedRow& size) noexcept {
+                                                      SampleRow& size) noexcept {
   const auto a_x = static_cast<float>(a.half.x);
   const auto a_y = static_cast<float>(a.half.y);
   const auto b_x = static_cast<float>(b.half.x);
@@ -228,7 +220,7 @@ using PaddedRow = std::array<float, num_spans + 8>;
 
 // Bounds of the gap from one sample to the next.
 [[gnu::always_inline]] inline void bound_gaps(const PoseSamples& a, const PoseSamples& b,
-                                              const SampleRange& range, const PaddedRow& size,
+                                              const SampleRange& range, const SampleRow& size,
                                               PairSamples& near) noexcept {
   const auto& apart = near.apart;
   const auto& reach = near.reach;
@@ -254,8 +246,9 @@ using PaddedRow = std::array<float, num_spans + 8>;
 [[gnu::always_inline]] inline void compare_all_samples(const PoseSamples& a, const PoseSamples& b,
                                                        std::size_t first, std::size_t last,
                                                        PairSamples& near) noexcept {
+  // Of spans: there is a sample behind the last, and rows are filled by whole groups.
   const SampleRange range{first * spans_per_group, (last + 1) * spans_per_group};
-  PaddedRow size;
+  SampleRow size;
   fill_axes_of_boxes(a, b, range, near, size);
   fill_gaps(a, b, range, near);
   bound_gaps(a, b, range, size, near);

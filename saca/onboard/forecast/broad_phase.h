@@ -24,6 +24,12 @@ constexpr double samples_end = 22.4;  ///< of the last span [s]
 /// The rest is room for whole packs.
 using SampleRow = std::array<float, num_spans + 8>;
 
+/// Samples, or the spans that begin at them, from `begin` on and before `end`.
+struct SampleRange {
+  std::size_t begin;
+  std::size_t end;
+};
+
 /// When span `k` begins [s since the scene's time]; num_spans: when the last one ends.
 [[nodiscard]] constexpr double sample_time(std::size_t k) noexcept {
   const auto at = static_cast<double>(k);

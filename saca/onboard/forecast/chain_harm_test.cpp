@@ -31,14 +31,14 @@ const collision::HarmModel& tariff() {
 }
 
 // 1.5 people in each car; a death counts four on top.
-TEST(Toll, OfOneBlowIsThatOfAllItsPeople) {
+TEST(ChainHarm, OfOneImpactIsThatOfAllItsPeople) {
   const std::vector<collision::Impact> impacts{impact(0, {0.2, 0.05}, {0.1, 0.02})};
   EXPECT_NEAR(expected_harm(impacts, two_cars(), tariff()), 1.5 * (0.3 + 4.0 * 0.07), 1e-12);
   EXPECT_EQ(expected_harm({}, two_cars(), tariff()), 0.0);
 }
 
 // 1 - 0.8 x 0.5 = 0.6 for the ego's severe, 1 - 0.95 x 0.9 = 0.145 for its killed.
-TEST(Toll, ChancesOfComingThroughMultiplyForThePeopleOfOneBody) {
+TEST(ChainHarm, ChancesOfComingThroughMultiplyForThePeopleOfOneBody) {
   const std::vector<collision::Impact> impacts{impact(0, {0.2, 0.05}, {0.1, 0.0}),
                                                impact(1, {0.5, 0.1}, {0.3, 0.0})};
   EXPECT_NEAR(expected_harm(impacts, two_cars(), tariff()), 1.5 * (0.6 + 4.0 * 0.145 + 0.1 + 0.3),
@@ -49,7 +49,7 @@ TEST(Toll, ChancesOfComingThroughMultiplyForThePeopleOfOneBody) {
 
 // The second follows from the first, so both must be there: 0.5 x 0.4. A third impact with one of
 // them needs nobody more.
-TEST(Toll, ABlowComesOnlyIfAllBeforeItDid) {
+TEST(ChainHarm, AnImpactComesOnlyIfAllBeforeItDid) {
   world::Scene scene = two_cars();
   scene.actors[0].existence = 0.5;
   scene.actors[1].existence = 0.4;

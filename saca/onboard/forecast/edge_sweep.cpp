@@ -69,7 +69,8 @@ AtlasRow sample_clearances(const AtlasEgo& ego, collision::Side side) noexcept {
   return clearances;
 }
 
-// What the clearance may be less than at the samples: an arc's bulge, and what lies between two.
+// By how much the clearance may be less than it is at the samples: an arc's bulge, and what lies
+// between two.
 double sample_margin(const AtlasEgo& ego) noexcept {
   const double reach = ego.samples().reach + std::abs(ego.scene().ego_footprint.centre_x);
   return 0.05 + std::abs(ego.path().curvature) * reach * reach;

@@ -43,7 +43,7 @@ TEST(EdgeSweep, AnEdgeIsCrossedWhenEdgeApproachSaysSo) {
 
 // The ego's side touches the edge in the mean; grip that it has more or less of does not move it
 // aside when it goes straight on.
-TEST(EdgeSweep, WhatDoesNotSwayIsSure) {
+TEST(EdgeSweep, WhatIsNotSensitiveToGripIsSure) {
   world::Scene scene = atlas_scene(12.5, 0.85);
   scene.grip_sd = 0.05;
   scene.road.left_edge = 1.0;

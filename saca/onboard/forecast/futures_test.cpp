@@ -96,7 +96,7 @@ TEST(Futures, AgreeWithRollOut) {
 }
 
 // One impact alone: what happens then is the same function's doing.
-TEST(Futures, HarmOfOneBlowIsThatOfRollOut) {
+TEST(Futures, HarmOfOneImpactIsThatOfRollOut) {
   Staged stage;
   stage.add(world::ActorKind::car, {{14.0, 0.3}, 0.0}, {});
   const auto plan = atlas_plan(PolicyId::no_intervention, 12.6);

@@ -36,12 +36,7 @@ struct SpreadRows {
   alignas(32) SampleRow per_sd;
 };
 
-struct Range {
-  std::size_t begin;
-  std::size_t end;
-};
-
-void fill_actor(const NarrowPhase& pair, const Range& range, ActorRows& actor) noexcept {
+void fill_actor(const NarrowPhase& pair, const SampleRange& range, ActorRows& actor) noexcept {
   for (std::size_t k = range.begin; k < range.end; ++k) {
     const world::Spread spread = pair.actor_spread(sample_time(k));
     actor.along[k] = static_cast<float>(spread.along_sd * spread.along_sd);
@@ -49,7 +44,7 @@ void fill_actor(const NarrowPhase& pair, const Range& range, ActorRows& actor) n
   }
 }
 
-// Directions, and how far apart the middles are along them.
+// Refers to directions, and to how far apart the middles are along them.
 struct AxisRows {
   const SampleRow& n_x;
   const SampleRow& n_y;
@@ -57,7 +52,7 @@ struct AxisRows {
 };
 
 [[gnu::always_inline]] inline void spread_along(const AxisRows& axis, const NarrowPhase& pair,
-                                                const ActorRows& actor, const Range& range,
+                                                const ActorRows& actor, const SampleRange& range,
                                                 SpreadRows& spread) noexcept {
   const auto& [n_x, n_y, apart] = axis;
   const AtlasEgo::SensitivityAtSamples& sensitivity = pair.ego().sensitivity_at_samples();
@@ -79,7 +74,7 @@ struct AxisRows {
 }
 
 [[gnu::always_inline]] inline void fill_axis(std::size_t axis, const NarrowPhase& pair,
-                                             const ActorRows& actor, const Range& range,
+                                             const ActorRows& actor, const SampleRange& range,
                                              const PairSamples& near, ScoreRows& rows) noexcept {
   const PoseSamples& body = axis < 2 ? pair.ego().samples() : pair.samples();
   const SampleRow& apart = near.apart[axis];
@@ -110,7 +105,7 @@ struct AxisRows {
 }
 
 [[gnu::always_inline]] inline void fill_axes(const NarrowPhase& pair, const ActorRows& actor,
-                                             const Range& range, const PairSamples& near,
+                                             const SampleRange& range, const PairSamples& near,
                                              ScoreRows& rows) noexcept {
   rows.most.fill(-std::numeric_limits<float>::infinity());
   rows.bound.fill(-std::numeric_limits<float>::infinity());
@@ -121,14 +116,14 @@ struct AxisRows {
 
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void fill_axes_in_avx2(const NarrowPhase& pair, const ActorRows& actor,
-                                               const Range& range, const PairSamples& near,
+                                               const SampleRange& range, const PairSamples& near,
                                                ScoreRows& rows) noexcept {
   fill_axes(pair, actor, range, near, rows);
 }
 #endif
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
-void fill_all(const NarrowPhase& pair, const Range& range, const PairSamples& near,
+void fill_all(const NarrowPhase& pair, const SampleRange& range, const PairSamples& near,
               ScoreRows& rows) noexcept {
   ActorRows actor;
   fill_actor(pair, range, actor);

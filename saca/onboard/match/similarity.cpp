@@ -20,7 +20,7 @@ namespace {
 
 using world::ActorKind;
 
-constexpr double ample_to_edge = 7.0;   // [m]
+constexpr double far_from_edge = 7.0;   // [m]
 constexpr double other_ground = 2.0;    // soft instead of hard beyond an edge that is at hand
 constexpr double other_marking = 1.25;  // oncoming traffic or not
 constexpr double other_topology = 4.0;
@@ -72,8 +72,8 @@ EgoFeatures ego_features(const world::Scene& scene, const world::LanePose& ego) 
           .log_grip = std::log(scene.grip),
           .lane_width = road.lane_width,
           .curve = road.curvature * dot(v_L, v_L),
-          .to_left_edge = std::min(road.left_edge - ego.d, ample_to_edge),
-          .to_right_edge = std::min(ego.d - road.right_edge, ample_to_edge),
+          .to_left_edge = std::min(road.left_edge - ego.d, far_from_edge),
+          .to_right_edge = std::min(ego.d - road.right_edge, far_from_edge),
           .topology = road.topology,
           .left_beyond = road.left_beyond,
           .right_beyond = road.right_beyond,
@@ -386,7 +386,7 @@ ScaledEgo<Real> scaled(const EgoFeatures& ego, const Scales& scales) noexcept {
       real(ego.lane_width / scales.lane_width), real(ego.curve / scales.curve),
       real(ego.to_left_edge / scales.to_edge),  real(ego.to_right_edge / scales.to_edge)};
   const auto nearness = [&](double distance) {
-    return real((ample_to_edge - distance) / (ample_to_edge - lane));
+    return real((far_from_edge - distance) / (far_from_edge - lane));
   };
   result.near_left = nearness(ego.to_left_edge);
   result.near_right = nearness(ego.to_right_edge);

@@ -28,7 +28,7 @@ struct EgoFeatures {
   double log_grip = 0.0;
   double lane_width = 0.0;
   double curve = 0.0;  ///< acceleration that following the lane takes [m/s^2], > 0 to the left
-  double to_left_edge = 0.0;   ///< from the centre of mass to the edge, at most `ample_to_edge` [m]
+  double to_left_edge = 0.0;   ///< from the centre of mass to the edge, at most 7 m
   double to_right_edge = 0.0;  ///< likewise
   world::Topology topology = world::Topology::straight;
   world::Beyond left_beyond = world::Beyond::unmarked;
@@ -69,7 +69,7 @@ struct Scales {
   double ego_size = 2.0;    ///< [m], assumed
   double lane_width = 1.0;  ///< [m], assumed
   double curve = 2.0;       ///< [m/s^2], assumed
-  double to_edge = 3.0;     ///< to an edge [m]
+  double to_edge = 3.0;     ///< of the ways to both edges [m]
   // Of an actor. Where it will be across the lane in 1 s counts most: it hits or misses.
   double along_now = 6.0;      ///< [m]
   double across_now = 4.0;     ///< [m]

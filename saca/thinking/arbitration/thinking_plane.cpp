@@ -147,11 +147,13 @@ ThinkingPlane::Pending ThinkingPlane::take_forecasts(const Round& round) {
       preview.newest_scene = situation.scene_at_trigger;
       preview.situation = std::move(situation);
       previews_.push_back(std::move(preview));
-    } else if (const std::int32_t number = previews_[*known].number;
-               std::find(now.begin(), now.end(), number) == now.end()) {
+      continue;
+    }
+    const std::int32_t number = previews_[*known].number;
+    if (std::find(now.begin(), now.end(), number) == now.end()) {
       now.push_back(number);
-      update(round, *known, situation, pending);
-    }  // else so like one that is likelier that the plan for that serves it too
+      bring_up_to_date(round, *known, situation, pending);
+    }  // else it is so like a likelier one that the plan for that serves it too
   }
   current_.insert(current_.begin(), now.begin(), now.end());
   for (std::size_t i = 0; i < current_.size(); ++i) {  // newest first, each once
@@ -162,8 +164,8 @@ ThinkingPlane::Pending ThinkingPlane::take_forecasts(const Round& round) {
   return pending;
 }
 
-void ThinkingPlane::update(const Round& round, std::size_t known, preview::Situation& situation,
-                           Pending& pending) {
+void ThinkingPlane::bring_up_to_date(const Round& round, std::size_t known,
+                                     preview::Situation& situation, Pending& pending) {
   Preview& preview = previews_[known];
   preview.newest_scene = situation.scene_at_trigger;
   if (refresh(round, preview, situation)) {

@@ -116,12 +116,13 @@ class ThinkingPlane {
   bool forget_what_has_passed(double now);
   void tell(const Round& round, EventKind kind, std::string text) const;
   void describe_scene(const Round& round, const reflex::Threat& threat) const;
-  /// The likely situations at the trigger by this scene: each is a new preview, or brings the known
-  /// one that is like it up to date. They are current from then on.
+  /// The likely situations at the trigger by this scene, but those whose trigger has passed: each
+  /// is a new preview, or brings the known one that is like it up to date, where no likelier one
+  /// did. They are current from then on.
   Pending take_forecasts(const Round& round);
-  /// @param known  index into previews_ of what is like the situation, which is moved from
-  void update(const Round& round, std::size_t known, preview::Situation& situation,
-              Pending& pending);
+  /// @param known  index into previews_ of what is like the situation, which may be moved from
+  void bring_up_to_date(const Round& round, std::size_t known, preview::Situation& situation,
+                        Pending& pending);
   void tell_forecast(const Round& round, const Preview& preview) const;
   /// The known forecast that is most like this one, if like enough: index into previews_.
   [[nodiscard]] std::optional<std::size_t> provided_for(const preview::Situation& situation) const;

@@ -168,7 +168,7 @@ std::optional<Error> RecordingModel::write(const std::filesystem::path& path) co
 struct ReplayModel::Recalled {
   struct RecordedAnswer {
     std::size_t scene = 0;
-    const Reply* reply = nullptr;  ///< that it is of
+    const Reply* reply = nullptr;  ///< that it belongs to
     Answer answer;                 ///< at a time of this clock
   };
   std::vector<Reply> replies;           ///< still without what was answered

@@ -76,7 +76,8 @@ class ReplayModel final : public LanguageModel {
 
  private:
   struct Recalled;
-  /// What answers these scenes between two instants of the clock.
+  /// What answers these scenes before the deadline.
+  /// @param begin  when they were asked about: recorded times count from there
   [[nodiscard]] Recalled recall(const std::vector<std::string>& scenes, Clock::Time begin,
                                 Clock::Time deadline, int sampling_seed) const;
   [[nodiscard]] Result<std::vector<Reply>> reply_to(

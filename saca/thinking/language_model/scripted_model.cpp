@@ -18,9 +18,9 @@ Answer answer_of(const ScriptedLine& line, Clock::Time time) {
 
 /// What is said in time.
 struct Said {
-  std::vector<Reply> replies;                               ///< still without it
+  std::vector<Reply> replies;                               ///< still without what is said
   std::vector<std::pair<std::size_t, ScriptedLine>> lines;  ///< of all scenes, by their times
-  bool cut = false;                                         ///< there was more, too late
+  bool cut = false;  ///< somebody says nothing, or more than there is time for
 };
 
 /// @param left  the time that there is

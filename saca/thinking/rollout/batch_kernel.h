@@ -247,7 +247,7 @@ inline void move_body(const vehicle::equations::StateVector<T>& state_vector,
   }
 }
 
-/// What the sensors tell: the acceleration of 1 ms ago.
+/// What the sensors tell: the acceleration of 1 ms ago. The present one is kept for the next step.
 /// @param force  that acts now
 template <Kind kind, class T, class Mask>
 inline Pair<T> sensed_acceleration(const FixedLane<T>& fixed, const Pair<T>& force,
@@ -261,7 +261,8 @@ inline Pair<T> sensed_acceleration(const FixedLane<T>& fixed, const Pair<T>& for
   return sensed;
 }
 
-/// What the actuators are told, within their limits, before the brake line.
+/// What the actuators are told, before the brake line: the steering as it will be in the middle of
+/// the step.
 template <Kind kind, class T, class Mask>
 inline ActuatorCommand<T> command_of(const FixedLane<T>& fixed, const Pair<T>& sensed_a,
                                      const Turn<T>& heading, const Mask& first,
@@ -271,7 +272,7 @@ inline ActuatorCommand<T> command_of(const FixedLane<T>& fixed, const Pair<T>& s
   command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
   command.motor_torque =
       clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
-  // As with the brakes (hold): what will be told in the step's middle.
+  // The steering follows at once, without a line: what will be told in the step's middle (hold).
   const T turned = command.steering - moving.command_steering;
   moving.command_steering = command.steering;
   command.steering = command.steering + select(first, T(0.0), newer(step_of(kind)) * turned);

@@ -42,7 +42,7 @@ double braking_way(double speed) {
 
 // 15 against -10, equal masses, restitution 0.1: the common 2.5, and 0.1 x 12.5 away from each
 // other.
-TEST(PlayOut, HeadOnBothSlideToWhereTheirSpeedsTakeThem) {
+TEST(CollisionSequence, HeadOnBothSlideToWhereTheirSpeedsTakeThem) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{50.0, 0.0}, pi}, {-10.0, 0.0});
   const CollisionSequence sequence = encounter.sequence(model());
@@ -55,7 +55,7 @@ TEST(PlayOut, HeadOnBothSlideToWhereTheirSpeedsTakeThem) {
 }
 
 // 15 into 5: both at 10, then 0.5 apart. Both brake alike, so the struck one stays ahead.
-TEST(PlayOut, RearEndedTheLeadIsPushedAwayAndStaysAhead) {
+TEST(CollisionSequence, RearEndedTheLeadIsPushedAwayAndStaysAhead) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{20.0, 0.0}, 0.0}, {5.0, 0.0});
   const CollisionSequence sequence = encounter.sequence(model());
@@ -77,7 +77,7 @@ Encounter struck_twice() {
   return encounter;
 }
 
-TEST(PlayOut, AnEgoThatSlidToRestCanBeRunInto) {
+TEST(CollisionSequence, AnEgoThatSlidToRestCanBeRunInto) {
   const Encounter encounter = struck_twice();
   const CollisionSequence sequence = encounter.sequence(model());
   const collision::Outcome& outcome = sequence.outcome;
@@ -100,7 +100,7 @@ TEST(PlayOut, AnEgoThatSlidToRestCanBeRunInto) {
 
 // Each of the ego's people comes through all impacts or not: chances multiply, for injury and death
 // apart.
-TEST(PlayOut, TheHarmOfSeveralBlowsIsTheirCombinedProbability) {
+TEST(CollisionSequence, TheHarmOfSeveralImpactsIsTheirCombinedProbability) {
   const collision::Outcome outcome = struck_twice().judged(model());
   ASSERT_EQ(outcome.later.size(), 1U);
   double unhurt = 1.0;
@@ -121,7 +121,7 @@ TEST(PlayOut, TheHarmOfSeveralBlowsIsTheirCombinedProbability) {
 
 // A wreck ahead throws it back by 1 m/s, 6 cm; the car behind pushes it in again and holds it
 // there.
-TEST(PlayOut, BetweenAWreckAndWhoComesFromBehind) {
+TEST(CollisionSequence, BetweenAWreckAndWhoComesFromBehind) {
   Encounter encounter = along_x(10.0);
   encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{{30.0, 0.0}, 0.0}, {}});
   encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0,
@@ -136,7 +136,7 @@ TEST(PlayOut, BetweenAWreckAndWhoComesFromBehind) {
   EXPECT_NEAR(outcome.later[1].relative_speed, again, 0.02);
 }
 
-TEST(PlayOut, WhatFollowsADoubtfulContactIsAsDoubtful) {
+TEST(CollisionSequence, WhatFollowsADoubtfulContactIsAsDoubtful) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{40.0, 0.0}, 0.0}, {});
   encounter.add_car({{48.0, 0.0}, 0.0}, {});
@@ -153,7 +153,7 @@ TEST(PlayOut, WhatFollowsADoubtfulContactIsAsDoubtful) {
 }
 
 // The ego between two: pushed from behind into the car ahead that stands.
-TEST(PlayOut, APileOfTwo) {
+TEST(CollisionSequence, APileOfTwo) {
   Encounter encounter = along_x(0.0, 0.5);
   encounter.motion.ended = true;
   encounter.add_car({{6.0, 0.0}, 0.0}, {});
@@ -171,7 +171,7 @@ TEST(PlayOut, APileOfTwo) {
 }
 
 // A truck and a car at the common speed after an impact brake alike: touching is no contact.
-TEST(PlayOut, PushedAlongIsStruckOnce) {
+TEST(CollisionSequence, PushedAlongIsStruckOnce) {
   collision::HarmModel plastic = model();
   plastic.law.restitution = 0.0;
   Encounter encounter = along_x(5.0);
@@ -183,7 +183,7 @@ TEST(PlayOut, PushedAlongIsStruckOnce) {
   EXPECT_NEAR(outcome.contact->ego_delta_v, 15.0 * 12.0 / 13.7, 1e-6);
 }
 
-TEST(PlayOut, BodiesThatRestInEachOtherDoNotFight) {
+TEST(CollisionSequence, BodiesThatRestInEachOtherDoNotFight) {
   Encounter encounter = along_x(0.0, 1.0);
   encounter.motion.ended = true;
   encounter.add_car({{3.0, 1.0}, 0.4}, {});
@@ -193,7 +193,7 @@ TEST(PlayOut, BodiesThatRestInEachOtherDoNotFight) {
   EXPECT_EQ(outcome.harm, 0.0);
 }
 
-TEST(PlayOut, APersonIsStruckOnceAndTheEgoThenBrakes) {
+TEST(CollisionSequence, APersonIsStruckOnceAndTheEgoThenBrakes) {
   Encounter encounter = along_x(10.0);
   encounter.add(ActorKind::pedestrian, walker, 75.0, {{{30.0, 0.0}, pi / 2.0}, {}});
   const CollisionSequence sequence = encounter.sequence(model());
@@ -216,7 +216,7 @@ Encounter towards(Beyond beyond, double speed, double angle) {
 
 // The front corner is thrown back, the centre still moves outwards: the rear comes round. Hit far
 // ahead of the centre the ego turns to the right, hit behind it to the left.
-TEST(PlayOut, ABarrierIsHitByTheFrontAndThenByTheRear) {
+TEST(CollisionSequence, ABarrierIsHitByTheFrontAndThenByTheRear) {
   const CollisionSequence sequence = towards(Beyond::barrier, 15.0, 0.25).sequence(model());
   const collision::Outcome& outcome = sequence.outcome;
   ASSERT_TRUE(outcome.contact);
@@ -231,7 +231,7 @@ TEST(PlayOut, ABarrierIsHitByTheFrontAndThenByTheRear) {
   }
 }
 
-TEST(PlayOut, ScrapingAlongAWallIsAFewContactsNotHundreds) {
+TEST(CollisionSequence, ScrapingAlongAWallIsAFewContactsNotHundreds) {
   for (const double angle : {0.01, 0.03, 0.1}) {
     const CollisionSequence sequence = towards(Beyond::barrier, 25.0, angle).sequence(model());
     EXPECT_LE(sequence.outcome.later.size(), 2U) << angle;
@@ -240,7 +240,7 @@ TEST(PlayOut, ScrapingAlongAWallIsAFewContactsNotHundreds) {
   }
 }
 
-TEST(PlayOut, TreesHoldTheEgoAndThereItCanBeHit) {
+TEST(CollisionSequence, TreesHoldTheEgoAndThereItCanBeHit) {
   Encounter encounter = towards(Beyond::trees, 15.0, 0.25);
   const CollisionSequence alone = encounter.sequence(model());
   ASSERT_TRUE(alone.outcome.contact);
@@ -253,7 +253,7 @@ TEST(PlayOut, TreesHoldTheEgoAndThereItCanBeHit) {
   EXPECT_EQ(outcome.later[0].actor, 0U);
 }
 
-TEST(PlayOut, AKerbCrossedWhileSlidingIsAContactOnce) {
+TEST(CollisionSequence, AKerbCrossedWhileSlidingIsAContactOnce) {
   Encounter encounter = towards(Beyond::kerb, 15.0, 0.25);
   encounter.add(ActorKind::pedestrian, walker, 75.0, {{{5.0, 5.0 * std::tan(0.25)}, 0.0}, {}});
   const collision::Outcome outcome = encounter.judged(model());
@@ -263,7 +263,7 @@ TEST(PlayOut, AKerbCrossedWhileSlidingIsAContactOnce) {
   EXPECT_EQ(outcome.later[0].edge, collision::Side::left);
 }
 
-TEST(PlayOut, AWallIsMetLikeAnythingElse) {
+TEST(CollisionSequence, AWallIsMetLikeAnythingElse) {
   Encounter encounter = along_x(10.0);
   encounter.add(ActorKind::obstacle, {.shape = world::Shape::segment, .length = 30.0}, 1.0,
                 {{{30.0, 0.0}, pi / 2.0}, {}});
@@ -278,7 +278,7 @@ TEST(PlayOut, AWallIsMetLikeAnythingElse) {
 
 // A driver behind who keeps a place 8 m behind the ego at every instant: told of the real stop, it
 // stops too.
-TEST(PlayOut, WhoReactsIsAskedAgainWithWhatTheEgoReallyDoes) {
+TEST(CollisionSequence, WhoReactsIsAskedAgainWithWhatTheEgoReallyDoes) {
   Encounter encounter = along_x(15.0);
   encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{{40.0, 0.0}, 0.0}, {}});
   encounter.add_car({{-8.0, 0.0}, 0.0}, {15.0, 0.0});
@@ -309,7 +309,7 @@ TEST(PlayOut, WhoReactsIsAskedAgainWithWhatTheEgoReallyDoes) {
 
 // A wreck that stands 30 m ahead counts only if it is there when the ego passes, after 2 s; who
 // appears inside the ego is in contact then.
-TEST(PlayOut, BeforeItsTrackStartsAnActorIsNotThere) {
+TEST(CollisionSequence, BeforeItsTrackStartsAnActorIsNotThere) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{30.0, 0.0}, 0.0}, {});
   const double start_of_contact = encounter.judged(model()).contact.value().time;
@@ -322,7 +322,7 @@ TEST(PlayOut, BeforeItsTrackStartsAnActorIsNotThere) {
   EXPECT_GT(encounter.judged(model()).clearance, 5.0);
 }
 
-TEST(PlayOut, TheCourseIsTheMotionAndThenTheSlide) {
+TEST(CollisionSequence, TheCourseIsTheMotionAndThenTheSlide) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{40.0, 0.6}, 0.3}, {});
   const CollisionSequence sequence = encounter.sequence(model());
@@ -345,7 +345,7 @@ TEST(PlayOut, TheCourseIsTheMotionAndThenTheSlide) {
   EXPECT_EQ(sequence.outcome.harm, encounter.judged(model()).harm);
 }
 
-TEST(PlayOut, OnIceEverybodySlidesFarther) {
+TEST(CollisionSequence, OnIceEverybodySlidesFarther) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{20.0, 0.0}, 0.0}, {5.0, 0.0});
   const collision::Others fixed = [&](const manoeuvre::EgoMotion&) { return encounter.tracks; };
@@ -386,7 +386,7 @@ double energy(const world::Footprint& footprint, Vec2 v, double yaw_rate) {
 // After the first impact nobody who was struck is driven, and the others keep their speed. Between
 // the two poses around an impact a track knows only the mean velocity: one pose may tell too much
 // or too little.
-TEST(PlayOut, AfterTheFirstBlowEnergyOnlyFalls) {
+TEST(CollisionSequence, AfterTheFirstImpactEnergyOnlyFalls) {
   std::mt19937 rng(11);
   int stories = 0;
   for (int i = 0; i < 200; ++i) {
@@ -429,7 +429,7 @@ void each_later(const collision::Outcome& a, const collision::Outcome& b, Check&
   }
 }
 
-TEST(PlayOut, DoesNotDependOnTheWorldsFrameToTheEnd) {
+TEST(CollisionSequence, DoesNotDependOnTheWorldsFrameToTheEnd) {
   std::mt19937 rng(12);
   std::size_t later = 0;
   for (int i = 0; i < 150; ++i) {
@@ -461,7 +461,7 @@ TEST(PlayOut, DoesNotDependOnTheWorldsFrameToTheEnd) {
   EXPECT_GT(later, 20U);
 }
 
-TEST(PlayOut, IsMirrorSymmetricToTheEnd) {
+TEST(CollisionSequence, IsMirrorSymmetricToTheEnd) {
   std::mt19937 rng(13);
   const auto face = [](collision::Face one) {
     return one == collision::Face::left    ? collision::Face::right
@@ -501,7 +501,7 @@ TEST(PlayOut, IsMirrorSymmetricToTheEnd) {
 }
 
 // The same story from the other's seat, with two cars alone.
-TEST(PlayOut, FromTheOtherCarsSeatSwapsWhatItShouldToTheEnd) {
+TEST(CollisionSequence, FromTheOtherCarsSeatSwapsWhatItShouldToTheEnd) {
   std::mt19937 rng(14);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int contacts = 0;
@@ -531,7 +531,7 @@ TEST(PlayOut, FromTheOtherCarsSeatSwapsWhatItShouldToTheEnd) {
   EXPECT_GT(contacts, 20);
 }
 
-TEST(PlayOut, RefusesOthersThatAreNotThere) {
+TEST(CollisionSequence, RefusesOthersThatAreNotThere) {
   Encounter encounter = along_x(10.0);
   encounter.add_car({{30.0, 0.0}, 0.0}, {});
   const collision::Others nobody = [](const manoeuvre::EgoMotion&) { return std::vector<Track>{}; };
