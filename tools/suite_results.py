@@ -22,7 +22,7 @@ from figures import ROOT, Figures, interval, percent, processor, table
 KEPT = ROOT / "docs" / "suites.json"
 PAGE = ROOT / "docs" / "suites.md"
 NUMBERS = ("harm", "regret", "harm_over_aeb", "harm_over_first", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
-           "false_triggers", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
+           "false_triggers", "twin_harm", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
 ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_reach", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_paper",
@@ -109,15 +109,20 @@ def suite_section(figures, name):
     def above_first(method):
         return [interval(figures, f"{head}{method}.harm_over_first")] if first else []
 
+    has_twins = any(f"{head}{m}.twin_harm" in figures for m in methods)  # told since 2026-11-30
+
+    def in_twins(method):
+        return [interval(figures, f"{head}{method}.twin_harm")] if has_twins else []
+
     lines = [[f"`{m}`", interval(figures, f"{head}{m}.harm"), interval(figures, f"{head}{m}.regret"),
               interval(figures, f"{head}{m}.harm_over_aeb"), *above_first(m), percent(figures, f"{head}{m}.contact"),
               percent(figures, f"{head}{m}.right"), percent(figures, f"{head}{m}.materially_worse_than_aeb"),
-              percent(figures, f"{head}{m}.needless"), interval(figures, f"{head}{m}.false_trigger_loss", 3).split(" ")[0]]
+              percent(figures, f"{head}{m}.needless"), interval(figures, f"{head}{m}.false_trigger_loss", 3).split(" ")[0], *in_twins(m)]
              for m in methods]
     text = [f"## Suite `{name}`, {figures[head + 'n']:,} encounters\n",
             f"{figures[head + 'faults']} could not be played. Means with 95 % intervals; shares in per cent.\n",
             table(["method", "harm", "regret", "harm above AEB's", *([f"harm above that of `{first}`"] if first else []), "contact", "as good as the best",
-                   "materially worse than AEB", "needless", "False-Trigger Loss"], lines)]
+                   "materially worse than AEB", "needless", "False-Trigger Loss", *(["harm in twins"] if has_twins else [])], lines)]
     families = sorted({key[len(head):].split(".")[1] for key in figures
                        if key.startswith(head) and len(key[len(head):].split(".")) == 3 and key.endswith(".regret")})
     if families:

@@ -40,6 +40,7 @@ def test_a_suite_gives_rows_figures_and_a_page(tmp_path):
     assert told["suite.balanced.oracle.harm"] <= told["suite.balanced.aeb.harm"] <= told["suite.balanced.nothing.harm"]
     assert abs(told["suite.balanced.oracle.regret"]) < 0.003
     assert told["suite.balanced.nothing.false_trigger_loss"] == 0 and told["suite.balanced.aeb.harm_over_aeb"] == 0
+    assert told["suite.balanced.aeb.twin_harm.n"] == 6 and told["suite.balanced.nothing.twin_harm"] <= told["suite.balanced.aeb.twin_harm"]
     assert (tmp_path / "out/s.h5").read_bytes()[512:].startswith(b"\x89HDF")
     assert json.loads((tmp_path / "out/s.json").read_text()).keys() >= told.keys() - {"suite.balanced.threads"}
     page = Text()

@@ -25,6 +25,14 @@ def test_a_table_shows_mean_and_interval():
     assert "| `aeb` | 0.2500 |" in text and "`x`, 7 encounters" in text
 
 
+def test_harm_in_twins_is_told_where_a_run_has_it():
+    figures = {"suite.x.aeb.harm": 0.125, "suite.x.n": 7, "suite.x.faults": 0}
+    assert "harm in twins" not in suite_results.suite_section(figures, "x")
+    figures |= {"suite.x.aeb.twin_harm": 0.5, "suite.x.aeb.twin_harm.lo": 0.25, "suite.x.aeb.twin_harm.hi": 0.75}
+    text = suite_results.suite_section(figures, "x")
+    assert "harm in twins" in text and "0.5000 (0.2500 to 0.7500) |" in text and set(suite_results.trimmed(figures)) == set(figures)
+
+
 def test_a_run_that_is_added_takes_the_place_of_the_same_command():
     kept = [{"meta.command": "a", "x": 1}, {"meta.command": "b", "x": 2}]
     assert suite_results.with_added(kept, [{"meta.command": "a", "x": 3}, {"meta.command": "c", "x": 4}]) == [

@@ -227,6 +227,9 @@ void fill_twins(const MethodRows& of, MethodFigures& figures) {
   figures.false_triggers = of.mean([](RowRef row, std::size_t m, Aeb) {
     return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
   });
+  figures.twin_harm = of.mean([](RowRef row, std::size_t m, Aeb) {
+    return row.twin ? std::optional(row.twin->runs[m].harm) : std::nullopt;
+  });
 }
 
 void count_decisions(const MethodRows& of, MethodFigures& figures) {

@@ -52,10 +52,11 @@ struct MethodFigures {
   Estimate
       needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
   Estimate switches;  ///< how often another plan was begun later, in an encounter
-  std::optional<Estimate> false_trigger_loss;          ///< the paper's, over the twins
-  std::optional<Estimate> false_triggers;              ///< share of the twins with an intervention
-  std::map<std::string, int> sources;                  ///< of decisions, how often
-  std::map<std::string, int> reasons;                  ///< likewise
+  std::optional<Estimate> false_trigger_loss;  ///< the paper's, over the twins
+  std::optional<Estimate> false_triggers;      ///< share of the twins with an intervention
+  std::optional<Estimate> twin_harm;           ///< in the twins: what acting without need does
+  std::map<std::string, int> sources;          ///< of decisions, how often
+  std::map<std::string, int> reasons;          ///< likewise
   std::optional<encounter::ThinkingFigures> thinking;  ///< summed, without answers; nullopt: the
                                                        ///< method does not think ahead
   std::optional<ExpectedFigures> expected;             ///< nullopt: nothing was decided by verdicts

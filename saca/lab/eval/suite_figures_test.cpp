@@ -56,6 +56,25 @@ TEST(SuiteFigures, AreMeansOverTheEncounters) {
   EXPECT_GE(told[0].harm.high, told[0].harm.value);
 }
 
+// Two of three encounters have a twin: one in which the second acts and harms, one in which nobody
+// acts.
+TEST(SuiteFigures, TellWhatIsDoneInTwins) {
+  std::vector<SuiteRow> rows{made(0, {0.0, 0.0}, 0.0), made(1, {0.0, 0.0}, 0.0),
+                             made(2, {0.0, 0.0}, 0.0)};
+  rows[0].twin = made(0, {0.0, 0.3}, 0.0).risk;
+  rows[1].twin = made(1, {0.0, 0.0}, 0.0).risk;
+  for (MethodRun& run : rows[1].twin->runs) {
+    run.acted_at.reset();
+    run.plan = manoeuvre::doing_nothing;
+  }
+  const auto told = figures(rows, {"aeb", "other"});
+  EXPECT_EQ(told[1].twin_harm.value().n, 2);
+  EXPECT_NEAR(told[1].twin_harm.value().value, 0.15, 1e-12);
+  EXPECT_EQ(told[0].twin_harm.value().value, 0.0);
+  EXPECT_EQ(told[1].false_triggers.value().value, 0.5);
+  EXPECT_FALSE(figures({rows[2]}, {"aeb", "other"})[1].twin_harm.has_value());
+}
+
 TEST(SuiteFigures, SumWhatWasThought) {
   std::vector<SuiteRow> rows{made(0, {0.0, 0.0}, 0.0), made(1, {0.0, 0.0}, 0.0)};
   rows[0].risk.runs[1].thinking = encounter::ThinkingFigures{.forecasts = 3, .recalled = 2};

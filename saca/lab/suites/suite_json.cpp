@@ -35,6 +35,7 @@ void add_figures(json& out, const std::string& place, const MethodFigures& one) 
   if (one.false_trigger_loss) {
     add_estimate(out, place + "false_trigger_loss", *one.false_trigger_loss);
     add_estimate(out, place + "false_triggers", *one.false_triggers);
+    add_estimate(out, place + "twin_harm", *one.twin_harm);
   }
 }
 

@@ -58,10 +58,12 @@ report::PageTable figures_table(const SuiteResult& result) {
           {"Means with 95 % intervals (bootstrap over encounters). Regret is the harm above that "
            "of the best of all plans begun at T1; as published, above that of the best of the "
            "eight policies, whose braking has one strength. Twins are the same encounters without "
-           "risk. In the files beside this page, shares have intervals too."},
+           "risk: what they harm comes of acting without need. In the files beside this page, "
+           "shares have intervals too."},
       .columns = {"harm", "regret, all plans", "regret, as published", "harm above AEB's",
                   "Collision Loss", "contact, %", "as good as the best, %",
-                  "materially worse than AEB, %", "needless, %", "False-Trigger Loss (twins)"},
+                  "materially worse than AEB, %", "needless, %", "False-Trigger Loss (twins)",
+                  "harm in twins"},
       .rows = {}};
   for (const MethodFigures& one : result.all) {
     const eval::MethodInfo& info = *eval::find_method(one.method);
@@ -74,7 +76,8 @@ report::PageTable figures_table(const SuiteResult& result) {
                    fmt::format("{:.2f}", one.collision_loss.value), percent_of(one.contact),
                    percent_of(one.right), percent_of(one.worse_than_aeb), percent_of(one.needless),
                    one.false_trigger_loss ? fmt::format("{:.3f}", one.false_trigger_loss->value)
-                                          : "-"},
+                                          : "-",
+                   one.twin_harm ? with_interval(*one.twin_harm, 4) : "-"},
          .shades = {},
          .faded = info.knows_truth});
   }
