@@ -215,21 +215,24 @@ std::optional<ExpectedFigures> expected_figures(const MethodRows& of) {
   return figures;
 }
 
-void fill_twins(const MethodRows& of, MethodFigures& figures) {
+/// nullopt: no encounter has a twin.
+std::optional<TwinFigures> twin_figures(const MethodRows& of) {
   const bool twins = std::any_of(of.rows.begin(), of.rows.end(),
                                  [](const SuiteRow* row) { return row->twin.has_value(); });
   if (!twins) {
-    return;
+    return std::nullopt;
   }
+  TwinFigures figures;
   figures.false_trigger_loss = of.mean([](RowRef row, std::size_t m, Aeb) {
     return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
   });
   figures.false_triggers = of.mean([](RowRef row, std::size_t m, Aeb) {
     return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
   });
-  figures.twin_harm = of.mean([](RowRef row, std::size_t m, Aeb) {
+  figures.harm = of.mean([](RowRef row, std::size_t m, Aeb) {
     return row.twin ? std::optional(row.twin->runs[m].harm) : std::nullopt;
   });
+  return figures;
 }
 
 void count_decisions(const MethodRows& of, MethodFigures& figures) {
@@ -251,7 +254,7 @@ MethodFigures figures_of(const MethodRows& of, const std::string& name) {
   fill_harms(of, figures);
   fill_decisions(of, figures);
   figures.expected = expected_figures(of);
-  fill_twins(of, figures);
+  figures.twins = twin_figures(of);
   count_decisions(of, figures);
   return figures;
 }

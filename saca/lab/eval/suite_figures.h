@@ -37,6 +37,13 @@ struct ExpectedFigures {
                              ///< than one plan was admissible
 };
 
+/// What was done in the twins without risk.
+struct TwinFigures {
+  Estimate false_trigger_loss;  ///< the paper's
+  Estimate false_triggers;      ///< share with an intervention
+  Estimate harm;                ///< what acting without need does
+};
+
 /// Figures of one method over some encounters.
 struct MethodFigures {
   std::string method;
@@ -51,12 +58,10 @@ struct MethodFigures {
   Estimate worse_than_aeb;    ///< share whose harm is more than `material` above AEB's
   Estimate
       needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
-  Estimate switches;  ///< how often another plan was begun later, in an encounter
-  std::optional<Estimate> false_trigger_loss;  ///< the paper's, over the twins
-  std::optional<Estimate> false_triggers;      ///< share of the twins with an intervention
-  std::optional<Estimate> twin_harm;           ///< in the twins: what acting without need does
-  std::map<std::string, int> sources;          ///< of decisions, how often
-  std::map<std::string, int> reasons;          ///< likewise
+  Estimate switches;                   ///< how often another plan was begun later, in an encounter
+  std::optional<TwinFigures> twins;    ///< nullopt: no encounter has one
+  std::map<std::string, int> sources;  ///< of decisions, how often
+  std::map<std::string, int> reasons;  ///< likewise
   std::optional<encounter::ThinkingFigures> thinking;  ///< summed, without answers; nullopt: the
                                                        ///< method does not think ahead
   std::optional<ExpectedFigures> expected;             ///< nullopt: nothing was decided by verdicts

@@ -51,7 +51,7 @@ TEST(SuiteFigures, AreMeansOverTheEncounters) {
   EXPECT_EQ(told[1].right.value, 0.5);  // the first, and the last, which acted better than at T1
   EXPECT_EQ(told[1].needless.value, 1.0);
   EXPECT_EQ(told[1].needless.n, 1);
-  EXPECT_FALSE(told[1].false_triggers.has_value());
+  EXPECT_FALSE(told[1].twins.has_value());
   EXPECT_LE(told[0].harm.low, told[0].harm.value);
   EXPECT_GE(told[0].harm.high, told[0].harm.value);
 }
@@ -68,11 +68,11 @@ TEST(SuiteFigures, TellWhatIsDoneInTwins) {
     run.plan = manoeuvre::doing_nothing;
   }
   const auto told = figures(rows, {"aeb", "other"});
-  EXPECT_EQ(told[1].twin_harm.value().n, 2);
-  EXPECT_NEAR(told[1].twin_harm.value().value, 0.15, 1e-12);
-  EXPECT_EQ(told[0].twin_harm.value().value, 0.0);
-  EXPECT_EQ(told[1].false_triggers.value().value, 0.5);
-  EXPECT_FALSE(figures({rows[2]}, {"aeb", "other"})[1].twin_harm.has_value());
+  EXPECT_EQ(told[1].twins.value().harm.n, 2);
+  EXPECT_NEAR(told[1].twins.value().harm.value, 0.15, 1e-12);
+  EXPECT_EQ(told[0].twins.value().harm.value, 0.0);
+  EXPECT_EQ(told[1].twins.value().false_triggers.value, 0.5);
+  EXPECT_FALSE(figures({rows[2]}, {"aeb", "other"})[1].twins.has_value());
 }
 
 TEST(SuiteFigures, SumWhatWasThought) {

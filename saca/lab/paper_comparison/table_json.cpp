@@ -22,8 +22,8 @@ void add_figures(json& out, const TableFigures& figures) {
     put("collision_loss", one.collision_loss);
     put("harm", one.harm);
     put("harm_over_aeb", one.over_aeb);
-    if (one.false_trigger_loss) {
-      put("false_trigger_loss", *one.false_trigger_loss);
+    if (one.twins) {
+      put("false_trigger_loss", one.twins->false_trigger_loss);
     }
   };
   for (std::size_t m = 0; m < figures.all.size(); ++m) {

@@ -12,8 +12,8 @@ using nlohmann::json;
 TEST(TableJson, NamesTheTableTheMethodAndTheDraws) {
   json out = json::object();
   TableFigures figures = some_figures();
-  figures.all[1].false_trigger_loss =
-      eval::Estimate{.value = 0.5, .low = 0.5, .high = 0.5, .n = 12};
+  figures.all[1].twins.emplace().false_trigger_loss = {
+      .value = 0.5, .low = 0.5, .high = 0.5, .n = 12};
   add_figures(out, figures);
   EXPECT_EQ(out["tables.3.saca.collision_loss"], 0.75);
   EXPECT_EQ(out["tables.3.saca.collision_loss.n"], 12);

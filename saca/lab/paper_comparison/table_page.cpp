@@ -11,12 +11,11 @@
 namespace saca::paper_comparison {
 namespace {
 
-using eval::Estimate;
 using eval::MethodFigures;
 using eval::with_interval;
 
 std::string false_triggers(const MethodFigures& one) {
-  return with_interval(one.false_trigger_loss.value_or(Estimate{}), 2);
+  return with_interval(one.twins.value_or(eval::TwinFigures{}).false_trigger_loss, 2);
 }
 
 report::PageTable::Row published_row(const eval::PublishedRow& row) {

@@ -32,10 +32,10 @@ void add_figures(json& out, const std::string& place, const MethodFigures& one) 
     add_estimate(out, place + "expected.knowingly_worse", one.expected->knowingly_worse);
     add_estimate(out, place + "expected.several_admissible", one.expected->several);
   }
-  if (one.false_trigger_loss) {
-    add_estimate(out, place + "false_trigger_loss", *one.false_trigger_loss);
-    add_estimate(out, place + "false_triggers", *one.false_triggers);
-    add_estimate(out, place + "twin_harm", *one.twin_harm);
+  if (one.twins) {
+    add_estimate(out, place + "false_trigger_loss", one.twins->false_trigger_loss);
+    add_estimate(out, place + "false_triggers", one.twins->false_triggers);
+    add_estimate(out, place + "twin_harm", one.twins->harm);
   }
 }
 

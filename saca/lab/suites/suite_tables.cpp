@@ -75,9 +75,8 @@ report::PageTable figures_table(const SuiteResult& result) {
                    one.over_aeb.n == 0 ? "-" : with_interval(one.over_aeb, 4),
                    fmt::format("{:.2f}", one.collision_loss.value), percent_of(one.contact),
                    percent_of(one.right), percent_of(one.worse_than_aeb), percent_of(one.needless),
-                   one.false_trigger_loss ? fmt::format("{:.3f}", one.false_trigger_loss->value)
-                                          : "-",
-                   one.twin_harm ? with_interval(*one.twin_harm, 4) : "-"},
+                   one.twins ? fmt::format("{:.3f}", one.twins->false_trigger_loss.value) : "-",
+                   one.twins ? with_interval(one.twins->harm, 4) : "-"},
          .shades = {},
          .faded = info.knows_truth});
   }
