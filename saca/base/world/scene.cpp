@@ -14,6 +14,7 @@ constexpr std::array<std::string_view, 7> kind_names{
 
 // Nothing on a road is outside these; they keep predicted poses finite.
 constexpr double most_position = 1e7;      // [m]
+constexpr double most_yaw = 1e4;           // [rad], of which angles still have their digits
 constexpr double most_speed = 200.0;       // [m/s]
 constexpr double most_acceleration = 1e3;  // [m/s^2]
 constexpr double most_yaw_rate = 100.0;    // [rad/s]
@@ -30,10 +31,14 @@ bool within(Vec2 a, double most) {
   return std::abs(a.x) <= most && std::abs(a.y) <= most;
 }
 
+bool is_pose(const Pose& X) {
+  return within(X.p, most_position) && std::abs(X.yaw) <= most_yaw;
+}
+
 /// Velocity and acceleration in one frame or the other.
 bool is_motion(const Pose& X, Vec2 v, Vec2 a, double yaw_rate) {
-  return within(X.p, most_position) && std::isfinite(X.yaw) && within(v, most_speed) &&
-         within(a, most_acceleration) && std::abs(yaw_rate) <= most_yaw_rate;
+  return is_pose(X) && within(v, most_speed) && within(a, most_acceleration) &&
+         std::abs(yaw_rate) <= most_yaw_rate;
 }
 
 bool is_sized(const Footprint& footprint) {
@@ -54,10 +59,10 @@ bool is_amount(double amount) {
 }
 
 bool is_valid(const Road& road) {
-  return within(road.X_WL.p, most_position) && std::isfinite(road.X_WL.yaw) &&
-         std::abs(road.curvature) <= most_curvature && road.lane_width >= least_size &&
-         road.lane_width <= most_size && road.left_edge > 0.0 && road.left_edge <= most_position &&
-         road.right_edge < 0.0 && road.right_edge >= -most_position;
+  return is_pose(road.X_WL) && std::abs(road.curvature) <= most_curvature &&
+         road.lane_width >= least_size && road.lane_width <= most_size && road.left_edge > 0.0 &&
+         road.left_edge <= most_position && road.right_edge < 0.0 &&
+         road.right_edge >= -most_position;
 }
 
 bool is_valid(const SharedControls& shared) {

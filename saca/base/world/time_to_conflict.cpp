@@ -43,12 +43,15 @@ double beyond_band(double value, double band) {
   return value > 0.0 ? std::max(0.0, value - band) : std::min(0.0, value + band);
 }
 
+/// Who rolls backwards goes on nowhere: it is not foreseen where.
 Arc lane_arc(const Scene& scene) {
-  const LanePose here = to_lane(scene.road, scene.ego.X_WB);
-  return {.X_WC = {scene.ego.X_WB.p, wrap_angle(scene.ego.X_WB.yaw - here.heading)},
+  const EgoState& ego = scene.ego;
+  const LanePose here = to_lane(scene.road, ego.X_WB);
+  const bool rolls_back = ego.v_B.x < 0.0 && rotated(ego.v_B, here.heading).x < 0.0;
+  return {.X_WC = {ego.X_WB.p, wrap_angle(ego.X_WB.yaw - here.heading)},
           // Beside the centre line the same way along the lane is longer or shorter.
           .curvature = scene.road.curvature / std::max(0.1, 1.0 - scene.road.curvature * here.d),
-          .speed = norm(scene.ego.v_B)};
+          .speed = rolls_back ? 0.0 : norm(ego.v_B)};
 }
 
 Arc measured_arc(const Scene& scene) {
@@ -269,7 +272,7 @@ bool is_behind(const Scene& scene, const Actor& actor) {
   const double rear =
       to_lane(scene.road, {support(scene.ego_footprint, scene.ego.X_WB, -forward), 0.0}).s;
   const double front = to_lane(scene.road, {support(actor.footprint, actor.X_WA, forward), 0.0}).s;
-  return front < rear && !is_crossing(scene, actor);
+  return way_along(scene.road, rear, front) < 0.0 && !is_crossing(scene, actor);
 }
 
 bool is_follower(const Scene& scene, const Actor& actor) {
