@@ -90,7 +90,39 @@ bool is_finite(const VehicleState& state, double grip) {
          std::isfinite(state.yaw_rate + state.steering + grip);
 }
 
+bool is_finite(const vehicle::PerWheel& values) {
+  return std::all_of(values.begin(), values.end(), [](double one) { return std::isfinite(one); });
+}
+bool measures_wheels(const VehicleState& state) {
+  return is_finite(state.wheel_speed) && is_finite(state.brake_torque) &&
+         std::isfinite(state.motor_torque);
+}
+
+/// What is no number is taken for that of a wheel that rolls, without brake or motor.
+VehicleState with_rolling_wheels(const Car& car, VehicleState state) {
+  for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
+    if (!std::isfinite(state.wheel_speed[i])) {
+      state.wheel_speed[i] = state.v_B.x / car.wheel_radius;
+    }
+    if (!std::isfinite(state.brake_torque[i])) {
+      state.brake_torque[i] = 0.0;
+    }
+  }
+  if (!std::isfinite(state.motor_torque)) {
+    state.motor_torque = 0.0;
+  }
+  return state;
+}
+
 }  // namespace
+
+double share_of_swerve(const Car& car, const Plan& plan, const world::Scene& scene) noexcept {
+  const SwerveLaw& swerve = car.tuning.swerve;
+  const double speed = scene.ego.v_B.x;
+  const double bend = std::abs(scene.road.curvature) * speed * speed / (scene.grip * gravity);
+  return (brakes_to_speed(plan.policy) ? swerve.braked_share : swerve.share) -
+         swerve.fast_less * std::max(0.0, speed - fast) - bend;
+}
 
 ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scene) {
   expects(!refusal(car, plan, scene).has_value(), "the plan can be driven: refusal(...)");
@@ -106,14 +138,8 @@ ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scen
   }
   if (changes_lane(plan.policy)) {
     memory.end_d = side(plan.policy) * scene.road.lane_width;
-    const double bend = std::abs(scene.road.curvature) * ego.v_B.x * ego.v_B.x;
-    const double given_up = car.tuning.swerve.fast_less * std::max(0.0, ego.v_B.x - fast) +
-                            bend / (scene.grip * gravity);
-    const double share =
-        (brakes_to_speed(plan.policy) ? car.tuning.swerve.braked_share : car.tuning.swerve.share) -
-        given_up;
-    memory.shift = followable_shift(car, start, memory.end_d, share, scene.grip,
-                                    slowest_speed(car, plan, ego.v_B.x, scene.grip));
+    memory.shift = followable_shift(car, start, memory.end_d, share_of_swerve(car, plan, scene),
+                                    scene.grip, slowest_speed(car, plan, ego.v_B.x, scene.grip));
   } else {
     constexpr double coming_to = 0.5;  // [s] within which a wrong direction is taken up
     memory.end_d = start.d + coming_to * start.v_L.y;
@@ -123,13 +149,11 @@ ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scen
   return memory;
 }
 
-Command control(const Car& car, const world::Road& road, double grip, const VehicleState& state,
-                ControllerState& memory, double dt) noexcept {
-  if (!is_finite(state, grip)) {
-    Command command;
-    command.brake_torque.fill(car.brake_limit);
-    return command;
-  }
+namespace {
+
+/// Of a state that is finite.
+Command controlled(const Car& car, const world::Road& road, double grip, const VehicleState& state,
+                   ControllerState& memory, double dt) {
   if (drifts(memory.plan.policy)) {
     memory.time += dt;
     return drift(car, road, grip, state, dt, memory);
@@ -142,13 +166,31 @@ Command control(const Car& car, const world::Road& road, double grip, const Vehi
   return command;
 }
 
+}  // namespace
+
+Command control(const Car& car, const world::Road& road, double grip, const VehicleState& state,
+                ControllerState& memory, double dt) noexcept {
+  if (!is_finite(state, grip)) {
+    Command command;
+    command.brake_torque.fill(car.brake_limit);
+    return command;
+  }
+  return measures_wheels(state)
+             ? controlled(car, road, grip, state, memory, dt)
+             : controlled(car, road, grip, with_rolling_wheels(car, state), memory, dt);
+}
+
+bool ends_at_rest(const ControllerState& memory) noexcept {
+  return drifts(memory.plan.policy) || equations::stops(wants(memory.plan), memory);
+}
+
 bool finished(const VehicleState& state, const ControllerState& memory) noexcept {
   const Plan& plan = memory.plan;
   constexpr double sure = 0.2;  // [s]
   if (plan.policy == PolicyId::no_intervention) {
     return false;
   }
-  if (drifts(plan.policy) || equations::stops(wants(plan), memory)) {
+  if (ends_at_rest(memory)) {
     return vehicle::at_rest(state);
   }
   return memory.recovered_for >= sure;

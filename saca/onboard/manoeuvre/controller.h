@@ -40,13 +40,22 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
 /// angle. Speed: anti-lock braking with what the path leaves of the grip,
 /// at most the plan's strength of it, or the motor. Policies 5
 /// and 6 have no path: see DriftLaw.
-/// Allocates nothing, never throws; a state that is not finite gets full braking straight ahead.
+/// Allocates nothing, never throws. A motion, steering angle or grip that is not finite gets full
+/// braking straight ahead; a wheel whose speed or torque is not finite is taken to roll freely.
 ///
 /// Source of the point: K. Kritayakirana, J. C. Gerdes, Using the centre of percussion to design a
 /// steering controller for an autonomous race car, Vehicle System Dynamics 50 (2012).
 [[nodiscard]] vehicle::Command control(const Car& car, const world::Road& road, double grip,
                                        const vehicle::VehicleState& state, ControllerState& memory,
                                        double dt) noexcept;
+
+/// How much of the grip a lane change may take that begins here: less where it is fast, or a bend
+/// takes some [-]. Where little is left, it is refused (why_refused).
+[[nodiscard]] double share_of_swerve(const Car& car, const Plan& plan,
+                                     const world::Scene& scene) noexcept;
+
+/// Whether its safe end is at rest, where it is held: of 0, 5 and 6, and of 3 and 4 with target 0.
+[[nodiscard]] bool ends_at_rest(const ControllerState& memory) noexcept;
 
 /// Whether the manoeuvre has reached its safe end: at rest for 0, 5 and 6 (3, 4 with target 0);
 /// for the others with a lane change: lane offset within 0.2 m, direction within 2 degrees and

@@ -106,6 +106,31 @@ TEST_F(Controller, BrakesHardAndStraightWhenItsSensorsFail) {
   EXPECT_GT(command.brake_torque[vehicle::rear_left], 0.0);
 }
 
+// One wrong sample of one wheel, or all of them, in the middle of a stop: the brakes go on.
+TEST_F(Controller, AWheelWhoseSensorFailsIsTakenToRoll) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const world::Scene scene = test::ego_alone(14.0, 0.9);
+  std::optional<double> unharmed;
+  for (const std::size_t num_failed : {std::size_t{0}, std::size_t{1}, vehicle::num_wheels}) {
+    ControllerState memory = begin(car_, full_braking, scene);
+    vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
+    for (int k = 0; k < 1'000; ++k) {
+      vehicle::VehicleState measured = state;
+      if (k == 300 && num_failed > 0) {
+        for (std::size_t i = 0; i < num_failed; ++i) {
+          measured.wheel_speed[i] = measured.brake_torque[i] = nan;
+        }
+        measured.motor_torque = nan;
+      }
+      const vehicle::Command command = control(car_, scene.road, 0.9, measured, memory, dt);
+      EXPECT_GT(command.brake_torque[vehicle::front_left], 0.0) << k;
+      state = vehicle::step(car_, state, command, 0.9, dt);
+    }
+    unharmed = unharmed.value_or(state.v_B.x);
+    EXPECT_NEAR(state.v_B.x, *unharmed, 0.05);
+  }
+}
+
 TEST_F(Controller, RefusesToBeginWhatCannotBeDriven) {
   EXPECT_THROW((void)begin(car_, {PolicyId::t_drift_left, {}}, test::ego_alone(9.0, 0.9)),
                ContractViolation);

@@ -1,5 +1,6 @@
 #include "saca/onboard/manoeuvre/drive.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -53,6 +54,11 @@ double share_of_bend(const world::Scene& scene) {
          (scene.grip * vehicle::gravity);
 }
 
+constexpr double least_share_of_swerve = 0.05;
+bool leaves_grip_to_swerve(const Car& car, const Plan& plan, const world::Scene& scene) {
+  return !changes_lane(plan.policy) || share_of_swerve(car, plan, scene) >= least_share_of_swerve;
+}
+
 std::string in_words(Refusal why, const Car& car, const Plan& plan, const world::Scene& scene) {
   const std::string policy(index(plan.policy) < num_policies ? name(plan.policy) : "");
   switch (why) {
@@ -86,6 +92,11 @@ std::string in_words(Refusal why, const Car& car, const Plan& plan, const world:
                  ? with_number("strength must be 0.2 to 1, is %.3f", strength_of(plan))
                  : policy + " takes no strength";
     case Refusal::bend:
+      if (share_of_bend(scene) <= most_share_of_bend(plan)) {
+        return policy + with_number(" needs %.0f %% of the grip", 100.0 * least_share_of_swerve) +
+               with_number(", this bend and speed leave %.0f %%",
+                           100.0 * std::max(0.0, share_of_swerve(car, plan, scene)));
+      }
       break;
   }
   return policy +
@@ -134,8 +145,9 @@ std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
   if (!finite_road || !(road.lane_width >= 2.0 && road.lane_width <= 6.0)) {
     return Refusal::road;
   }
-  return share_of_bend(scene) <= most_share_of_bend(plan) + 1e-9 ? std::nullopt
-                                                                 : std::optional(Refusal::bend);
+  const bool has_grip = share_of_bend(scene) <= most_share_of_bend(plan) + 1e-9 &&
+                        leaves_grip_to_swerve(car, plan, scene);
+  return has_grip ? std::nullopt : std::optional(Refusal::bend);
 }
 
 std::optional<std::string> refusal(const Car& car, const Plan& plan, const world::Scene& scene) {

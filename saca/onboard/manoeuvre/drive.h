@@ -33,8 +33,8 @@ enum class Refusal : std::uint8_t {
 ///
 /// Domain: lane changes at 5 to 25 m/s, drifts at the speeds of the car's DriftDomain,
 /// grip 0.2 to 1.0, lanes 2 to 6 m wide, in bends that take at most half of the grip (of a drift:
-/// 0.3). Braking and
-/// no intervention are possible from any finite state: they are what is left when all else is
+/// 0.3) and leave a lane change a twentieth (share_of_swerve). Braking and no intervention are
+/// possible from any finite state: they are what is left when all else is
 /// refused. Outside the domain their figures are not claimed.
 [[nodiscard]] std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
                                                  const world::Scene& scene) noexcept;

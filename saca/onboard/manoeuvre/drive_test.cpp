@@ -350,6 +350,20 @@ TEST(Refusal, OfALaneChangeInATightBend) {
               HasSubstr("allows a bend 30 % of the grip, this one takes 40 %"));
 }
 
+// At 25 m/s this car's lane changes give up 0.42 of the grip, a bend that takes 0.45 leaves nothing
+// of 0.76.
+TEST(Refusal, OfALaneChangeForWhichSpeedAndBendLeaveNoGrip) {
+  Car fast = car();
+  fast.tuning.swerve.fast_less = 0.06;
+  fast.tuning.swerve.braked_share = 0.76;
+  world::Scene scene = scene_at(25.0, 0.9);
+  scene.road.curvature = 0.45 * 0.9 * vehicle::gravity / (25.0 * 25.0);
+  EXPECT_THAT(refusal(fast, {PolicyId::es_b_left, 12.5}, scene).value_or("none"),
+              HasSubstr("needs 5 % of the grip, this bend and speed leave 0 %"));
+  scene.road.curvature *= 0.5;  // 0.76 - 0.42 - 0.225
+  EXPECT_EQ(refusal(fast, {PolicyId::es_b_left, 12.5}, scene), std::nullopt);
+}
+
 TEST(Drive, RefusesWhatCannotBeDriven) {
   EXPECT_THROW((void)drive(car(), {PolicyId::t_drift_left, {}}, scene_at(9.0, 0.9), 0.9, 5.0),
                ContractViolation);

@@ -33,6 +33,9 @@ class Execution {
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double grip,
                                          double dt) noexcept;
 
+  /// Whether its safe end is at rest (`manoeuvre::ends_at_rest`).
+  [[nodiscard]] bool ends_at_rest() const noexcept { return manoeuvre::ends_at_rest(controller_); }
+
   /// Whether the plan has reached its safe end (`manoeuvre::finished`) by the last call of
   /// `control`, or before.
   [[nodiscard]] bool finished() const noexcept { return finished_; }
