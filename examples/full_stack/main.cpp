@@ -42,7 +42,7 @@ int main(int num_arguments, char** arguments) {
   const Clock::Time start = clock.now();
   while (scene.time < 7.0) {
     const Answer answer = avoider.step(scene, clock.now());
-    if (answer.begins && answer.plan) {
+    if (answer.triggered && answer.threat && answer.plan) {
       const auto name = manoeuvre::name(answer.plan->policy);
       std::printf("%.2f s, %.1f s before the contact: %.*s\n", scene.time, answer.threat->time,
                   static_cast<int>(name.size()), name.data());
@@ -54,7 +54,7 @@ int main(int num_arguments, char** arguments) {
     scene.time += 0.01;
     clock.wait_until(start + from_seconds(scene.time));
   }
-  const double gap = wreck.X_WA.p.x - 2.25 - scene.ego.X_WB.p.x - 2.3;
+  const double gap = wreck.X_WA.p.x - 2.25 - scene.ego.X_WB.p.x - car.front_end;
   std::printf("at %.1f m/s, %.1f m before the wreck\n", scene.ego.v_B.x, gap);
   return scene.ego.v_B.x < 0.1 && gap > 0.0 ? 0 : 1;
 }

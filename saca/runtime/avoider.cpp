@@ -41,7 +41,8 @@ Answer Avoider::answer(const reflex::IntakeResult& taken, Clock::Time at) {
   const world::Scene& scene = intake_.scene();
   if (taken.new_drive) {
     observer_ = intent::Observer(*setup_.intent);
-    begin_anew(runtime::Reset::drive);
+    planes_.begin_anew(runtime::Reset::drive);
+    taken.goes_on ? encounter_.begin_drive() : encounter_.begin_anew();
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
   const reflex::Reflex reflex = planes_.step(scene, beliefs, at, finished());

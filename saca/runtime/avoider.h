@@ -39,7 +39,9 @@ struct Answer {
   std::optional<reflex::Switch> switched;  ///< in place of another plan; of no intervention, the
                                            ///< wheel is given back
   std::optional<reflex::Threat> threat;    ///< as reflex::Reflex has it
-  bool degraded = false;                   ///< somebody or everything is carried on instead of seen
+  /// Somebody or everything is carried on instead of seen; or nothing can be, so that nothing new
+  /// begins (for more than Intake::longest_carried nothing usable has come): an event says which.
+  bool degraded = false;
 };
 
 /// SACA as a driving stack embeds it: scenes in, at 10 to 100 Hz, a plan out at each; while there
@@ -55,6 +57,8 @@ struct Answer {
 /// work; they end with the object.
 class Avoider {
  public:
+  /// @param setup  car, harm, intent and clock are given, at either pace; else ContractViolation is
+  ///               thrown
   explicit Avoider(const AvoiderSetup& setup);
   Avoider(const Avoider&) = delete;
   Avoider& operator=(const Avoider&) = delete;
@@ -71,8 +75,9 @@ class Avoider {
   void stand_down();
 
   /// What to tell the car: carries the plan of the last answer out.
-  /// @param state  as measured now
-  /// @param dt     since the last call [s], > 0
+  /// @param state  as measured now; of `brake_line` nothing is read, `transfer_a_B` is a_B behind a
+  ///               low pass of some 0.1 s, or a_B where nothing better is known
+  /// @param dt     since the last call [s], > 0: 1 ms in all that was tested
   /// @return       nothing to steer or brake, where there is no plan
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
 

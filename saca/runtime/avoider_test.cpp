@@ -675,6 +675,26 @@ TEST(Avoider, AllocatesNothingOnTheDrivingThread) {
   EXPECT_EQ(avoider.finish(), "");
 }
 
+// Time jumps while forecaster and thinking plane are at work: each jump is a new drive.
+TEST(Avoider, BeginsNewDrivesWhileOthersThink) {
+  const manoeuvre::Car car = prepare::default_car();
+  const auto harm = prepare::read_harm("data/harm.toml").value();
+  SteadyClock clock;
+  Avoider avoider(
+      {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
+       .intent = &intent::shipped_model()});
+  Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
+  scene.ego_mass = car.mass;
+  scene.actors.push_back(test::car(1, {55.0, 0.0}));
+  for (int k = 0; k < 60; ++k) {
+    EXPECT_FALSE(avoider.step(scene, clock.now()).degraded);
+    scene.time += k % 5 == 0 ? 2.0 : 0.01;
+    clock.wait_until(clock.now() + from_seconds(0.002));
+  }
+  EXPECT_EQ(avoider.finish(), "");
+  EXPECT_THAT(events(avoider), HasSubstr("a new drive begins"));
+}
+
 // Nor does any of it ask the system for anything: so says the kernel, which would end the process.
 TEST(Avoider, MakesNoSystemCallOnTheDrivingThread) {
   const std::string why = why_system_calls_cannot_be_forbidden();

@@ -182,6 +182,9 @@ void Planes::begin_anew(Reset forgotten) {
   first_scene_ = num_scenes_;
   threatened_ = false;
   reflex_.begin_anew();
+  if (real()) {
+    return;  // nothing is charged, and the thinking plane's thread forgets by itself
+  }
   if (forgotten == Reset::drive) {
     charged_forecasts_.begin_anew();
     charged_.begin_anew();
@@ -220,7 +223,9 @@ void Planes::think_of(std::uint32_t encounter) {
     hand_over_thoughts();
     thought_of_ = encounter;
     plane_.forget();
-    charged_.forget();
+    if (!real()) {
+      charged_.forget();
+    }
     events_.clear();
     events_left_out_ = 0;
   }

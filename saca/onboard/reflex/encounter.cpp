@@ -1,6 +1,18 @@
 #include "saca/onboard/reflex/encounter.h"
 
+#include <cmath>
+
 namespace saca::reflex {
+namespace {
+
+/// At rest, as far as sensors can tell: they say 0 of nothing.
+bool stands(const vehicle::VehicleState& state) {
+  constexpr double slowest = 0.05;     // [m/s]
+  constexpr double least_turn = 0.02;  // [rad/s]
+  return norm(state.v_B) <= slowest && std::abs(state.yaw_rate) <= least_turn;
+}
+
+}  // namespace
 
 bool Encounter::look(const world::Scene& scene, const Reflex& answer) {
   if (answer.refused_scene) {
@@ -10,8 +22,7 @@ bool Encounter::look(const world::Scene& scene, const Reflex& answer) {
   if (answer.triggered || answer.switched) {
     begin(answer.plan, scene);
   }
-  constexpr double rest = 0.1;  // [m/s]
-  if (finished_ && execution_ && norm(scene.ego.v_B) >= rest) {
+  if (finished_ && execution_ && !execution_->ends_at_rest()) {
     execution_.reset();
   }
   meets_somebody_ = meets_somebody_ || answer.threat || execution_;
@@ -37,7 +48,7 @@ vehicle::Command Encounter::control(const vehicle::VehicleState& state, double d
     return {};
   }
   const vehicle::Command command = execution_->control(state, grip_, dt);
-  finished_ = execution_->finished();
+  finished_ = finished_ || execution_->finished() || (execution_->ends_at_rest() && stands(state));
   return command;
 }
 

@@ -22,7 +22,8 @@ class Encounter {
   explicit Encounter(const manoeuvre::Car& car) noexcept : car_(&car) {}
 
   /// The plane has answered to a scene. What it begins is begun; of no intervention, the wheel is
-  /// given back. A lane that was recovered is given back, too; who has come to rest is held.
+  /// given back. A lane that was recovered is given back, too; who has come to rest is held, and
+  /// braked again if something moves it.
   /// @return  whether the encounter is over: who calls forgets it (`begin_anew`, and the plane's)
   [[nodiscard]] bool look(const world::Scene& scene, const Reflex& answer);
 
@@ -31,12 +32,15 @@ class Encounter {
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
 
   void begin_anew() noexcept;
+  /// Perception's time has jumped: what is under way goes on to its safe end.
+  void begin_drive() noexcept { quiet_.reset(); }
 
   /// What `control` carries out; nullopt: the stack drives.
   [[nodiscard]] std::optional<manoeuvre::Plan> plan() const noexcept {
     return execution_ ? std::optional(execution_->plan()) : std::nullopt;
   }
-  /// Whether what was begun last in this encounter has reached its safe end.
+  /// Whether what was begun last in this encounter has reached its safe end; to rest it has come
+  /// below 0.05 m/s and 0.02 rad/s, as measured.
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   /// Whether somebody has threatened since the last encounter ended.
   [[nodiscard]] bool meets_somebody() const noexcept { return meets_somebody_; }

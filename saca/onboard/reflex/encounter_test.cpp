@@ -46,6 +46,11 @@ class Drive {
     return answer;
   }
   Encounter& encounter() { return encounter_; }
+  void pushed_to(double speed) {
+    scene_.ego.v_B = {speed, 0.0};
+    state_ = manoeuvre::rolling_state(car_, scene_.ego, scene_.grip);
+    (void)hear(quiet(true));
+  }
   [[nodiscard]] double speed() const { return norm(scene_.ego.v_B); }
   world::Scene& scene() { return scene_; }
 
@@ -103,6 +108,39 @@ TEST(Encounter, HoldsWhoHasBrakedToRestAndIsOverThen) {
   drive.encounter().begin_anew();
   EXPECT_EQ(drive.encounter().plan(), std::nullopt);
   EXPECT_FALSE(drive.encounter().meets_somebody());
+}
+
+// Sensors never say exactly 0: a gyroscope drifts, wheels and position flicker.
+TEST(Encounter, IsOverForACarThatMeasuresAlmostNothing) {
+  Drive drive(0.0);
+  (void)drive.hear(Drive::trigger(PolicyId::aeb));
+  vehicle::VehicleState state;
+  state.v_B = {0.01, -0.005};
+  state.yaw_rate = 2e-3;
+  (void)drive.encounter().control(state, 0.001);
+  EXPECT_TRUE(drive.encounter().finished());
+  state.v_B.x = 0.2;
+  Drive crawls(0.2);
+  (void)crawls.hear(Drive::trigger(PolicyId::aeb));
+  (void)crawls.encounter().control(state, 0.001);
+  EXPECT_FALSE(crawls.encounter().finished());
+}
+
+// Stopped, and then hit from behind: the brakes stop it again.
+TEST(Encounter, BrakesAgainWhoIsPushed) {
+  Drive drive(15.0);
+  (void)drive.hear(Drive::trigger(PolicyId::aeb));
+  for (int k = 0; k < 30; ++k) {
+    (void)drive.go_on(true);
+  }
+  ASSERT_EQ(drive.speed(), 0.0);
+  drive.pushed_to(2.0);
+  (void)drive.go_on(true);
+  ASSERT_TRUE(drive.encounter().plan().has_value());
+  for (int k = 0; k < 5; ++k) {
+    (void)drive.go_on(true);
+  }
+  EXPECT_EQ(drive.speed(), 0.0);
 }
 
 TEST(Encounter, GivesARecoveredLaneBack) {

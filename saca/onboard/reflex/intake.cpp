@@ -38,37 +38,63 @@ Actor moved_on(Actor actor, double dt) {
   return actor;
 }
 
-/// As it moves now: on the arc of its turning rate, with its acceleration, until rest.
+/// As it moves now, forwards or backwards: on the arc of its turning rate, with its acceleration,
+/// until rest.
 EgoState moved_on(EgoState ego, double dt) {
-  const double speed = std::max(0.0, ego.v_B.x + ego.a_B.x * dt);
-  const double rest = ego.a_B.x < 0.0 ? std::min(dt, ego.v_B.x / -ego.a_B.x) : dt;
-  const double driven = std::max(0.0, ego.v_B.x * rest + 0.5 * ego.a_B.x * rest * rest);
-  const double turned = ego.yaw_rate * rest;
-  ego.X_WB.p = ego.X_WB.p + rotated({driven, ego.v_B.y * rest}, ego.X_WB.yaw + 0.5 * turned);
+  const double v = ego.v_B.x;
+  const double a = ego.a_B.x;
+  const bool slows = v < 0.0 ? a > 0.0 : a < 0.0;
+  const bool rests = slows && -v / a <= dt;
+  const double moving = rests ? -v / a : dt;
+  const double turned = ego.yaw_rate * moving;
+  ego.X_WB.p = ego.X_WB.p + rotated({(v + 0.5 * a * moving) * moving, ego.v_B.y * moving},
+                                    ego.X_WB.yaw + 0.5 * turned);
   ego.X_WB.yaw = wrap_angle(ego.X_WB.yaw + turned);
-  ego.v_B = speed > 0.0 ? Vec2{speed, ego.v_B.y} : Vec2{};
-  ego.yaw_rate = speed > 0.0 ? ego.yaw_rate : 0.0;
+  ego.v_B = rests ? Vec2{} : Vec2{v + a * moving, ego.v_B.y};
+  ego.yaw_rate = rests ? 0.0 : ego.yaw_rate;
   return ego;
+}
+
+/// May the ego have come from one state to the other, `dt` seconds later by perception's clock?
+bool may_go_on(const EgoState& before, const EgoState& now, double dt) {
+  constexpr double longest = 10.0;   // [s]: an emergency is over by then
+  constexpr double leap = 0.2;       // [s], which a clock that is set anew may leave out
+  constexpr double hardest = 12.0;   // [m/s^2]
+  constexpr double place_off = 1.0;  // [m]
+  constexpr double speed_off = 1.0;  // [m/s]
+  const double since = std::max(0.0, dt) + leap;
+  return dt <= longest &&
+         norm(now.X_WB.p - before.X_WB.p) <=
+             place_off + since * std::max(norm(before.v_B), norm(now.v_B)) &&
+         norm(now.v_B - before.v_B) <= speed_off + hardest * since;
+}
+
+/// A scene without its road users, at time 0: whether perception's frame breaks a rule does not
+/// depend on them, nor on the clock.
+Scene frame_of(const Scene& scene) {
+  Scene frame = scene;
+  frame.time = 0.0;
+  frame.actors.clear();
+  return frame;
 }
 
 }  // namespace
 
 IntakeResult Intake::take(const Scene& scene) noexcept {
-  Scene frame = scene;
-  frame.time = 0.0;
-  frame.actors.clear();
+  Scene frame = frame_of(scene);
   const bool has_time = std::abs(scene.time) <= latest;
   if (!has_time || world::broken_rule(frame)) {
-    return carry_on(has_time ? scene.time : began_ + delivered_);
+    return has_time ? carry_on(scene.time) : carry_on_to(delivered_);
   }
   IntakeResult taken{.usable = true};
   frame.time = scene.time - began_;
   taken.new_drive =
       !seen_at_ || std::abs(frame.time - delivered_) > longest_gap || frame.time > longest_drive;
   if (taken.new_drive) {
+    taken.goes_on = seen_at_ && may_go_on(scene_.ego, frame.ego, frame.time - scene_.time);
     began_ = scene.time;
     frame.time = 0.0;
-  } else if (frame.time < delivered_) {
+  } else if (frame.time < delivered_ && frame.time <= *seen_at_) {
     return {.usable = false, .degraded = true};
   }
   const Scene before = scene_;
@@ -81,35 +107,52 @@ IntakeResult Intake::take(const Scene& scene) noexcept {
   }
   if (!taken.new_drive) {
     for (const Actor& known : before.actors) {  // of those who came and could not be used
-      const double dt = frame.time - before.time;
+      const double dt = std::max(0.0, frame.time - before.time);
+      const Actor carried = moved_on(known, dt);
       if (find(frame, known) == nullptr && find(scene, known) != nullptr &&
-          known.age + dt <= longest_carried && !frame.actors.full()) {
-        frame.actors.push_back(moved_on(known, dt));
+          known.age + dt <= longest_carried && !world::broken_rule(carried) &&
+          !frame.actors.full()) {
+        frame.actors.push_back(carried);
       }
     }
   }
   scene_ = frame;
   seen_at_ = frame.time;
+  if (!taken.new_drive && frame.time < delivered_) {
+    return carry_on_to(delivered_);  // time does not go back
+  }
   delivered_ = frame.time;
   return taken;
 }
 
 IntakeResult Intake::carry_on(double now) noexcept {
-  const double time = now - began_;
+  return carry_on_to(now - began_);
+}
+
+IntakeResult Intake::carry_on_to(double time) noexcept {
   const bool follows = time >= scene_.time && seen_at_ && time <= *seen_at_ + longest_carried;
-  if (!follows) {
+  if (!follows || !move_on(time - scene_.time)) {
     return {.usable = false, .degraded = true};
   }
-  const double dt = time - scene_.time;
-  if (dt > 0.0) {
-    scene_.ego = moved_on(scene_.ego, dt);
-    for (Actor& actor : scene_.actors) {
-      actor = moved_on(actor, dt);
-    }
-    scene_.time = time;
-  }
+  scene_.time = time;
   delivered_ = std::max(delivered_, time);
   return {.usable = true, .degraded = true};
+}
+
+bool Intake::move_on(double dt) noexcept {
+  Scene frame = frame_of(scene_);
+  frame.ego = moved_on(scene_.ego, dt);
+  if (world::broken_rule(frame)) {
+    return false;
+  }
+  for (const Actor& actor : scene_.actors) {
+    const Actor carried = dt > 0.0 ? moved_on(actor, dt) : actor;
+    if (!world::broken_rule(carried)) {
+      frame.actors.push_back(carried);
+    }
+  }
+  scene_ = frame;
+  return true;
 }
 
 }  // namespace saca::reflex

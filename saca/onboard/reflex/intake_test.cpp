@@ -222,6 +222,98 @@ TEST(Intake, NothingThatIsUsableBreaksARule) {
   }
 }
 
+// Backwards at 2 m/s: 0.2 m in 0.1 s, whether the brakes hold it or it gathers speed a little.
+TEST(Intake, WhoRollsBackIsCarriedOnBackwards) {
+  for (const double a : {-0.05, 0.0, 0.05, -1e-9}) {
+    Intake intake;
+    Scene rolling = road_at(0.0);
+    rolling.ego.v_B = {-2.0, 0.0};
+    rolling.ego.a_B.x = a;
+    (void)intake.take(rolling);
+    EXPECT_TRUE(intake.carry_on(0.1).usable);
+    EXPECT_NEAR(intake.scene().ego.X_WB.p.x, -0.2, 1e-3) << a;
+    EXPECT_NEAR(intake.scene().ego.v_B.x, -2.0, 0.01) << a;
+  }
+  Intake intake;
+  Scene braking = road_at(0.0);
+  braking.ego.v_B = {-1.0, 0.0};
+  braking.ego.a_B.x = 5.0;
+  (void)intake.take(braking);
+  (void)intake.carry_on(0.45);
+  EXPECT_NEAR(intake.scene().ego.X_WB.p.x, -0.1, 1e-9) << "v^2 / 2a";
+  EXPECT_EQ(norm(intake.scene().ego.v_B), 0.0);
+}
+
+// What is within bounds now is beyond them when it is carried on.
+TEST(Intake, NobodyIsCarriedOnBeyondTheBounds) {
+  Intake intake;
+  Scene fast = road_at(0.0);
+  fast.actors[0].v_W.x = 195.0;
+  fast.actors[0].a_W.x = 1'000.0;
+  (void)intake.take(fast);
+  Scene broken = road_at(0.2);
+  broken.actors[0].mass = nan;
+  EXPECT_TRUE(intake.take(broken).usable);
+  EXPECT_EQ(world::broken_rule(intake.scene()), std::nullopt);
+  EXPECT_EQ(intake.scene().actors.size(), 1U);
+
+  Intake stalled;
+  (void)stalled.take(fast);
+  EXPECT_TRUE(stalled.carry_on(0.2).usable);
+  EXPECT_EQ(world::broken_rule(stalled.scene()), std::nullopt);
+
+  Intake ego;
+  fast = road_at(0.0);
+  fast.ego.v_B.x = 195.0;
+  fast.ego.a_B.x = 1'000.0;
+  (void)ego.take(fast);
+  EXPECT_FALSE(ego.carry_on(0.2).usable);
+  EXPECT_TRUE(ego.take(road_at(0.21)).usable);
+}
+
+// 20 scenes a second that come 30 ms late, and a stack that asks every 10 ms.
+TEST(Intake, ScenesThatAreOlderThanWhatIsCarriedOnToAreTakenAllTheSame) {
+  Intake intake;
+  double before = 0.0;
+  for (int k = 0; k < 200; ++k) {
+    const double now = 0.01 * k;
+    const bool comes = k % 5 == 3;
+    const IntakeResult taken = comes ? intake.take(road_at(now - 0.03)) : intake.carry_on(now);
+    if (k >= 3) {
+      ASSERT_TRUE(taken.usable) << k;
+      EXPECT_GE(intake.scene().time, before) << k;
+      EXPECT_NEAR(intake.scene().ego.X_WB.p.x, 20.0 * (intake.began() + intake.scene().time), 1e-6)
+          << k;
+      EXPECT_LE(named(intake.scene(), 1).age, 0.081) << "seen 20 times a second";
+      before = intake.scene().time;
+    }
+  }
+}
+
+// Time jumps ahead by 2 s, or back; the ego goes on where it was, or is somewhere else.
+TEST(Intake, KnowsWhetherTheEgoMayHaveComeFromWhereItWas) {
+  struct Case {
+    double time;
+    double x;
+    double speed;
+    bool goes_on;
+  };
+  for (const Case& one :
+       {Case{12.0, 201.0, 20.0, true}, Case{12.0, 240.0, 20.0, true},
+        Case{12.0, 300.0, 20.0, false}, Case{8.0, 201.0, 20.0, true}, Case{8.0, 0.0, 20.0, false},
+        Case{8.0, 201.0, 0.0, false}, Case{60.0, 201.0, 20.0, false}}) {
+    Intake intake;
+    (void)intake.take(road_at(10.0));
+    Scene jumped = road_at(one.time);
+    jumped.ego.X_WB.p.x = one.x;
+    jumped.ego.v_B.x = one.speed;
+    const IntakeResult taken = intake.take(jumped);
+    EXPECT_TRUE(taken.new_drive);
+    EXPECT_EQ(taken.goes_on, one.goes_on) << one.time << ' ' << one.x << ' ' << one.speed;
+  }
+  EXPECT_FALSE(Intake().take(road_at(0.0)).goes_on) << "nothing was before the first";
+}
+
 TEST(Intake, AllocatesNothing) {
   Intake intake;
   Scene broken = road_at(0.1);

@@ -91,16 +91,27 @@ std::optional<Enum> one_of(std::int32_t number, Enum last) {
              : std::nullopt;
 }
 
+std::optional<saca::world::ActorKind> kind_of(const saca_actor& given) {
+  return one_of(given.kind, saca::world::ActorKind::obstacle);
+}
+std::optional<saca::world::Shape> shape_of(const saca_actor& given) {
+  return one_of(given.shape, saca::world::Shape::segment);
+}
+bool has_id(const saca_actor& given) {
+  return given.id >= 1 && given.id <= 255;
+}
+/// Whether its kind, shape and id are such.
+bool is_named(const saca_actor& given) {
+  return kind_of(given) && shape_of(given) && has_id(given);
+}
+
 saca::world::Actor actor_of(const saca_actor& given) {
-  const auto kind = one_of(given.kind, saca::world::ActorKind::obstacle);
-  const auto shape = one_of(given.shape, saca::world::Shape::segment);
-  const bool is_named = given.id >= 1 && given.id <= 255;
-  saca::world::Actor actor{.id = static_cast<std::uint8_t>(is_named ? given.id : 0),
-                           .kind = kind.value_or(saca::world::ActorKind::car),
-                           .footprint = {.shape = shape.value_or(saca::world::Shape::box),
+  saca::world::Actor actor{.id = static_cast<std::uint8_t>(has_id(given) ? given.id : 0),
+                           .kind = kind_of(given).value_or(saca::world::ActorKind::car),
+                           .footprint = {.shape = shape_of(given).value_or(saca::world::Shape::box),
                                          .length = given.length,
                                          .width = given.width},
-                           .mass = kind && shape && is_named ? given.mass : none};
+                           .mass = is_named(given) ? given.mass : none};
   actor.X_WA = pose_of(given.X_WA);
   actor.v_W = vector_of(given.v_W);
   actor.a_W = vector_of(given.a_W);
@@ -113,18 +124,26 @@ saca::world::Actor actor_of(const saca_actor& given) {
   return actor;
 }
 
+std::optional<saca::world::Topology> topology_of(const saca_road& given) {
+  return one_of(given.topology, saca::world::Topology::one_way);
+}
+std::optional<saca::world::Beyond> beyond(std::int32_t given) {
+  return one_of(given, saca::world::Beyond::trees);
+}
+/// Whether its topology and what is beyond its edges are such.
+bool is_named(const saca_road& given) {
+  return topology_of(given) && beyond(given.left_beyond) && beyond(given.right_beyond);
+}
+
 saca::world::Road road_of(const saca_road& given) {
-  const auto topology = one_of(given.topology, saca::world::Topology::one_way);
-  const auto left = one_of(given.left_beyond, saca::world::Beyond::trees);
-  const auto right = one_of(given.right_beyond, saca::world::Beyond::trees);
-  return {.topology = topology.value_or(saca::world::Topology::straight),
+  return {.topology = topology_of(given).value_or(saca::world::Topology::straight),
           .X_WL = pose_of(given.X_WL),
           .curvature = given.curvature,
-          .lane_width = topology && left && right ? given.lane_width : none,
+          .lane_width = is_named(given) ? given.lane_width : none,
           .left_edge = given.left_edge,
           .right_edge = given.right_edge,
-          .left_beyond = left.value_or(saca::world::Beyond::unmarked),
-          .right_beyond = right.value_or(saca::world::Beyond::unmarked),
+          .left_beyond = beyond(given.left_beyond).value_or(saca::world::Beyond::unmarked),
+          .right_beyond = beyond(given.right_beyond).value_or(saca::world::Beyond::unmarked),
           .oncoming_left = given.oncoming_left != 0,
           .oncoming_right = given.oncoming_right != 0};
 }
@@ -145,6 +164,23 @@ saca::world::Scene scene_of(const saca_scene& given, const saca::manoeuvre::Car&
     scene.actors.push_back(actor_of(given.actors[i]));
   }
   return scene;
+}
+
+/// The first rule that a scene breaks, of C's numbers for what has a name, or of what scenes may
+/// hold (whatever clock its time is of); empty: none. A literal, so it ends with a zero.
+std::string_view rule_broken_by(const saca_scene& given, saca::world::Scene came) {
+  const saca_actor* const end = given.actors + given.num_actors;
+  if (std::any_of(given.actors, end, [](const saca_actor& actor) { return !is_named(actor); })) {
+    return "an actor's kind is 0 to 6, its shape 0 to 2, its id 1 to 255";
+  }
+  if (!is_named(given.road)) {
+    return "the road's topology is 0 to 2, what is beyond its edges 0 to 3";
+  }
+  if (!(std::abs(came.time) <= Intake::latest)) {
+    return "the time is within 1e10 s of 0";
+  }
+  came.time = 0.0;
+  return saca::world::broken_rule(came).value_or("");
 }
 
 saca_plan plan_of(const saca::manoeuvre::Plan& plan) {
@@ -247,7 +283,8 @@ saca_status saca_reflex::answer(const IntakeResult& taken, saca_answer& told) {
   if (taken.usable) {
     const saca::world::Scene& scene = intake.scene();
     if (taken.new_drive) {
-      begin_anew();
+      plane.begin_anew();
+      taken.goes_on ? encounter.begin_drive() : encounter.begin_anew();
     }
     const saca::reflex::Reflex reflex = plane.step(scene, encounter.finished());
     const bool is_over = encounter.look(scene, reflex);
@@ -353,7 +390,7 @@ const char* saca_reflex_car_name(const saca_reflex* reflex) {
 saca_status saca_reflex_step(saca_reflex* reflex, const saca_scene* scene, saca_answer* answer) {
   return guarded({check(reflex), check(scene), check(answer)}, [&] {
     const saca::world::Scene came = scene_of(*scene, reflex->package.car);
-    reflex->broken_rule = saca::world::broken_rule(came).value_or("");
+    reflex->broken_rule = rule_broken_by(*scene, came);
     return reflex->answer(reflex->intake.take(came), *answer);
   });
 }
@@ -398,7 +435,7 @@ saca_status saca_model_open(const saca_reflex* reflex, const saca_scene* scene,
   return guarded({check(scene)}, [&]() -> saca_status {
     const saca::manoeuvre::Car& car = reflex->package.car;
     const saca::world::Scene begun_in = scene_of(*scene, car);
-    if (saca::world::broken_rule(begun_in)) {
+    if (!rule_broken_by(*scene, begun_in).empty()) {
       return SACA_BAD_SCENE;
     }
     const auto state = saca::manoeuvre::rolling_state(car, begun_in.ego, begun_in.grip);

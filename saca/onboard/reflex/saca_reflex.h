@@ -10,7 +10,8 @@
  * mass, A to a road user at its body's centre, L to the ego's lane.
  *
  * One thread to a plane; `init` functions take no null pointer, all others say what they make of
- * one. After `saca_reflex_open` nothing is allocated, locked or waited for, and no function throws.
+ * one. After `saca_reflex_open` nothing is allocated (but by `saca_model_open`), locked or waited
+ * for, and no function throws.
  * A struct that is handed over begins with its size, which `saca_..._init` fills in with the
  * defaults: a program built with another version gets SACA_OTHER_VERSION, and is not misread.
  */
@@ -51,6 +52,7 @@ enum {
   SACA_PEDESTRIAN = 5,
   SACA_OBSTACLE = 6 /* at rest for good */
 };
+/* A segment is a line along x of width 0, and only an obstacle is one. */
 enum { SACA_BOX = 0, SACA_ELLIPSE = 1, SACA_SEGMENT = 2 };
 enum { SACA_STRAIGHT = 0, SACA_INTERSECTION = 1, SACA_ONE_WAY = 2 };
 /* What stands beyond an edge of the road. */
@@ -75,7 +77,8 @@ typedef struct {
   double x, y;
 } saca_vector;
 
-/* A road user or obstacle as perceived. */
+/* A road user or obstacle as perceived. Left out is whose numbers are none, or beyond what is on a
+ * road: 1e7 m from the origin, 200 m/s, 1,000 m/s^2, 100 rad/s, 1 mm to 1 km, 1 g to 10,000 t. */
 typedef struct {
   int32_t kind;         /* SACA_CAR ... SACA_OBSTACLE */
   int32_t id;           /* 1 to 255, unique within its kind, the same from scene to scene */
@@ -104,14 +107,16 @@ typedef struct {
   saca_pose X_WL;               /* a point on the lane's centre line, x along it */
   double curvature;             /* > 0 turns left [1/m] */
   double lane_width;            /* [m] */
-  double left_edge, right_edge; /* to the left of the centre line, so right_edge < 0 [m] */
+  double left_edge, right_edge; /* to the left of the centre line: left_edge > 0 > right_edge [m] */
 } saca_road;
 
 #define SACA_MAX_ACTORS 32
 /* All that is known of one instant. */
 typedef struct {
   uint64_t size;
-  double time; /* since any instant, 1970 for one; a jump of more than 1 s begins a new drive [s] */
+  double time; /* since any instant, 1970 for one; a jump of more than 1 s begins a new drive: what
+                  was known of others is forgotten, and what is under way goes on where the ego may
+                  have come from where it was [s] */
   saca_pose X_WB;
   saca_vector v_B; /* over ground [m/s] */
   saca_vector a_B; /* [m/s^2] */
@@ -188,13 +193,15 @@ saca_status saca_reflex_open(const char* path, int32_t version, saca_reflex** re
                              size_t message_size);
 void saca_reflex_close(saca_reflex* reflex); /* NULL is fine */
 
-/* The car of the package: its name, and what a scene's sizes are counted from. */
+/* The name of the package's car; data/vehicles/NAME.toml has its sizes, mass and where B lies. */
 const char* saca_reflex_car_name(const saca_reflex* reflex); /* "" for NULL */
 
 /* A scene came. Actors that break a rule, and second ones of a name, are left out; who was there
  * before, or all of a scene that breaks a rule as a whole, is carried on as it moved for half a
- * second. After that, SACA_BAD_SCENE: what is under way goes on. `answer` is valid whatever is
- * returned but SACA_BAD_ARGUMENT and SACA_OTHER_VERSION. */
+ * second. After that, SACA_BAD_SCENE: nothing new begins, what is under way goes on. Likewise
+ * SACA_BAD_SCENE, though it breaks no rule, is a scene older than the newest by at most 1 s: it is
+ * left aside. `answer` is valid whatever is returned but SACA_BAD_ARGUMENT and
+ * SACA_OTHER_VERSION. */
 saca_status saca_reflex_step(saca_reflex* reflex, const saca_scene* scene, saca_answer* answer);
 /* None came until `time` [s]: everything is carried on likewise. */
 saca_status saca_reflex_miss(saca_reflex* reflex, double time, saca_answer* answer);
@@ -204,11 +211,14 @@ const char* saca_reflex_broken_rule(const saca_reflex* reflex);
 /* Carries the plan of the last answer out: what to tell the car now. Nothing to steer or brake
  * where there is none. On any status but SACA_OK `command` is left alone.
  *
- * dt  since the last call [s], > 0 */
+ * dt  since the last call [s], > 0: 1 ms in all that was tested, brakes and path are controlled in
+ *     it */
 saca_status saca_reflex_control(saca_reflex* reflex, const saca_measured* measured, double dt,
                                 saca_command* command);
 
-/* The driver has taken the wheel: what is under way is dropped and this encounter forgotten. */
+/* The driver has taken the wheel: what is under way is dropped and this encounter forgotten. It
+ * goes on watching, and acts again where somebody still threatens: call it at every scene for as
+ * long as he is to keep the wheel. */
 saca_status saca_reflex_stand_down(saca_reflex* reflex);
 
 /* A model of the package's car, to try all this without one (docs/architecture.md, vehicle). */

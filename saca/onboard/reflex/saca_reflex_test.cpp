@@ -379,8 +379,37 @@ TEST_F(InC, LeavesOutAnActorThatIsNone) {
     auto answer = begun(saca_answer_init);
     EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
     EXPECT_EQ(answer.threatened, 0);
-    EXPECT_THAT(saca_reflex_broken_rule(opened.reflex.get()), HasSubstr("an actor's length"));
+    EXPECT_THAT(saca_reflex_broken_rule(opened.reflex.get()), HasSubstr("an actor's kind is"));
   }
+}
+
+TEST_F(InC, TakesSecondsSince1970) {
+  const auto opened = open();
+  auto scene = wreck_ahead(15.0, 0.0);
+  scene.time = 1.8e9;
+  auto answer = begun(saca_answer_init);
+  EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
+  EXPECT_EQ(answer.threatened, 1);
+  EXPECT_STREQ(saca_reflex_broken_rule(opened.reflex.get()), "");
+  saca_model* model = nullptr;
+  EXPECT_EQ(saca_model_open(opened.reflex.get(), &scene, &model), SACA_OK);
+  saca_model_close(model);
+
+  scene.time = 2e10;
+  EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
+  EXPECT_EQ(answer.degraded, 1) << "carried on";
+  EXPECT_THAT(saca_reflex_broken_rule(opened.reflex.get()), HasSubstr("the time"));
+}
+
+TEST_F(InC, LeavesALateSceneAside) {
+  const auto opened = open();
+  auto scene = wreck_ahead(60.0, 0.0);
+  scene.time = 10.0;
+  auto answer = begun(saca_answer_init);
+  ASSERT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
+  scene.time = 9.5;
+  EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_BAD_SCENE);
+  EXPECT_STREQ(saca_reflex_broken_rule(opened.reflex.get()), "");
 }
 
 TEST_F(InC, CarriesOnForHalfASecondWhateverComes) {
@@ -405,6 +434,23 @@ TEST_F(InC, CarriesOnForHalfASecondWhateverComes) {
   EXPECT_EQ(saca_reflex_miss(reflex, 0.8, &answer), SACA_BAD_SCENE);
   EXPECT_EQ(answer.carries_out, 0);
   EXPECT_EQ(answer.plan.policy, SACA_NO_INTERVENTION);
+}
+
+// Nobody is in the way any more, so that nothing triggers anew.
+TEST_F(InC, GoesOnWhereTimeJumpsAndTheEgoDoesNot) {
+  for (const bool elsewhere : {false, true}) {
+    const auto opened = open();
+    auto scene = wreck_ahead(15.0, 0.0);
+    auto answer = begun(saca_answer_init);
+    EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
+    ASSERT_EQ(answer.begins, 1);
+    scene.time = 2.0;
+    scene.num_actors = 0;
+    scene.X_WB.x = elsewhere ? 500.0 : 1.0;
+    EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
+    EXPECT_EQ(answer.triggered, 0);
+    EXPECT_EQ(answer.carries_out, elsewhere ? 0 : 1);
+  }
 }
 
 TEST_F(InC, AModelRefusesWhatNoCarIsTold) {
