@@ -148,6 +148,35 @@ bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcep
   return triggers || (is_watched(scene) && foreseen(scene, tracks));
 }
 
+std::optional<Switch> ReflexPlane::supervised(SupervisedScene now) noexcept {
+  if (!is_fresh(verdict_, now.scene)) {
+    return supervised_by_atlas(now);
+  }
+  if (verdict_->time <= now.under_way.begun) {
+    return std::nullopt;  // it was decided by this one, or knows no more
+  }
+  now.verdict = &*verdict_;
+  return supervisor_.look(now, tools_.car);
+}
+
+std::optional<Switch> ReflexPlane::supervised_by_atlas(SupervisedScene now) noexcept {
+  const bool idle = is_idle(now);
+  const bool may_do_more = idle || (now.under_way.plan.policy == manoeuvre::PolicyId::aeb &&
+                                    now.under_way.plan != manoeuvre::full_braking);
+  if (!may_do_more || now.scene.time < judged_at_ + look_ahead - rounding ||
+      !supervisor_.is_due(now.scene, now.under_way, now.triggers, now.finished)) {
+    return std::nullopt;
+  }
+  judged_at_ = now.scene.time;
+  const auto verdict = tools_.atlas ? tools_.atlas->judge(now.scene) : std::nullopt;
+  if (!verdict) {
+    return idle ? std::optional(Switch{.plan = manoeuvre::full_braking}) : std::nullopt;
+  }
+  now.verdict = &*verdict;
+  now.by_atlas = true;
+  return supervisor_.look(now, tools_.car);
+}
+
 Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
   Reflex reflex;
   if (under_way_) {
@@ -177,15 +206,12 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
     reflex.triggered = true;
     return reflex;
   }
-  if (under_way_ && supervises() && is_fresh(verdict_, scene) &&
-      verdict_->time > under_way_->begun) {
-    const SupervisedScene now{.scene = scene,
-                              .verdict = *verdict_,
-                              .under_way = *under_way_,
-                              .threatened = reflex.threat.has_value(),
-                              .triggers = trigger.has_value(),
-                              .finished = finished};
-    reflex.switched = supervisor_.look(now, tools_.car);
+  if (under_way_ && supervises()) {
+    reflex.switched = supervised({.scene = scene,
+                                  .under_way = *under_way_,
+                                  .threatened = reflex.threat.has_value(),
+                                  .triggers = trigger.has_value(),
+                                  .finished = finished});
     if (reflex.switched) {
       begin(reflex.switched->plan, scene);
       reflex.plan = reflex.switched->plan;

@@ -89,8 +89,10 @@ struct ReflexTools {
 /// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
 /// what the verdict speaks for (plan_of). Where the newest verdict is older than verdict_expiry,
 /// the atlas gives one; where it cannot, emergency braking. What cannot be driven from here gives
-/// way to emergency braking. From then on the verdicts are watched (Supervisor). Guard::none:
-/// Algorithm 1 of the paper, and its plan is kept.
+/// way to emergency braking. From then on the verdicts are watched (Supervisor); where the newest
+/// is too old, the atlas's, which may only begin what is needed after all, or brake harder, and
+/// where the atlas has none, emergency braking is what is needed. Guard::none: Algorithm 1 of the
+/// paper, and its plan is kept.
 class ReflexPlane {
  public:
   explicit ReflexPlane(ReflexTools tools) noexcept : tools_(std::move(tools)) {}
@@ -113,6 +115,7 @@ class ReflexPlane {
     under_way_.reset();
     watched_at_ = never;
     costly_at_ = never;
+    judged_at_ = never;
   }
 
   /// Does it decide and watch by verdicts? Not as Algorithm 1, nor where the plan is given.
@@ -136,6 +139,10 @@ class ReflexPlane {
   /// From cache and verdict, whether or not it can be driven.
   [[nodiscard]] Decision chosen(const world::Scene& scene) noexcept;
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene) noexcept;
+  /// What takes the place of the plan under way; nullopt: it goes on.
+  [[nodiscard]] std::optional<Switch> supervised(SupervisedScene now) noexcept;
+  /// Likewise where there is no verdict to watch it by but the reflex plane's own.
+  [[nodiscard]] std::optional<Switch> supervised_by_atlas(SupervisedScene now) noexcept;
   /// Whether verdicts are looked at before T1, and the last was a while ago.
   [[nodiscard]] bool is_watched(const world::Scene& scene) const noexcept;
   /// Who comes into conflict within T2.
@@ -156,6 +163,7 @@ class ReflexPlane {
   TrackConfirmation tracks_;
   double watched_at_ = never;  ///< a verdict was looked at before T1 [s]
   double costly_at_ = never;   ///< time of the verdict that said last that waiting costs much [s]
+  double judged_at_ = never;   ///< what is under way was watched by the atlas [s]
 };
 
 }  // namespace saca::reflex

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "saca/lab/prepare/harm_file.h"
@@ -457,6 +458,83 @@ TEST(ReflexPlane, IsSupervisedFromThenOn) {
   EXPECT_EQ(plane.under_way()->plan.policy, PolicyId::aes_left);
   EXPECT_EQ(plane.under_way()->begun, 0.2);
   EXPECT_EQ(plane.decision()->plan.policy, PolicyId::aeb) << "the first stands in the record";
+}
+
+/// At 12.5 m/s; a car comes from the right at 8 m/s, 18.8 m ahead, and would have cleared the ego's
+/// path 0.4 s before the ego is there, in 1.25 s; `stopped`: it stands across the lane instead.
+Scene crossed_after(double time, bool stopped) {
+  Scene scene = motorway(12.5);
+  scene.time = time;
+  scene.ego.X_WB.p.x = 12.5 * time;
+  scene.actors.push_back(stopped ? car(1, {18.8, 0.0})
+                                 : car(1, {18.8, -3.6 + 8.0 * time}, {0.0, 8.0}));
+  scene.actors[0].X_WA.yaw = 0.5 * std::numbers::pi;
+  return scene;
+}
+
+// It passes ahead, so that nothing is to be done; then it stops, and braking needs 10.2 m of 13.8.
+TEST(ReflexPlane, WhereNoVerdictComesTheAtlasFindsWhatIsNeededAfterAll) {
+  ReflexPlane plane(with_atlas());
+  ASSERT_TRUE(plane.step(crossed_after(0.0, false)).triggered);
+  ASSERT_EQ(plane.decision()->plan, manoeuvre::doing_nothing);
+  ASSERT_TRUE(plane.decision()->by_atlas);
+  EXPECT_FALSE(plane.step(crossed_after(0.05, false)).switched);
+  const Reflex reflex = plane.step(crossed_after(0.15, true));
+  ASSERT_TRUE(reflex.switched.has_value());
+  EXPECT_EQ(reflex.switched->reason, SwitchReason::needed_after_all);
+  EXPECT_EQ(reflex.switched->plan.policy, PolicyId::aeb);
+  EXPECT_EQ(plane.under_way()->plan, reflex.switched->plan);
+}
+
+TEST(ReflexPlane, AfterTheAtlasTheForecastersVerdictIsLookedAtAsSoonAsItComes) {
+  ReflexPlane plane(with_atlas());
+  (void)plane.step(crossed_after(0.0, false));
+  ASSERT_FALSE(plane.step(crossed_after(0.05, false)).switched) << "so says the atlas";
+  plane.receive(verdict_of(0.06, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.5}}));
+  EXPECT_TRUE(plane.step(crossed_after(0.06, false)).switched.has_value());
+}
+
+// Nobody can say what is needed: the small atlas knows no 20 m/s.
+TEST(ReflexPlane, WhereNoVerdictComesAndNoAtlasKnowsItBrakesInFull) {
+  for (const bool has_atlas : {false, true}) {
+    ReflexPlane plane(has_atlas ? with_atlas() : ReflexTools{});
+    plane.receive(verdict_of(0.0, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.0}}));
+    ASSERT_EQ(plane.step(wreck_in(1.28)).plan, manoeuvre::doing_nothing);
+    Scene later = wreck_in(1.18);
+    later.time = 0.1;
+    EXPECT_FALSE(plane.step(later).switched) << "the verdict is not too old yet";
+    later = wreck_in(1.08);
+    later.time = 0.2;
+    const Reflex reflex = plane.step(later);
+    ASSERT_TRUE(reflex.switched.has_value());
+    EXPECT_EQ(reflex.plan, manoeuvre::full_braking);
+  }
+}
+
+// Gentle braking, and 12 m are left, which it does not stop within (0.3 of the grip of 0.9: 29 m).
+TEST(ReflexPlane, WhereNoVerdictComesTheAtlasBrakesHarder) {
+  ReflexPlane plane(with_atlas());
+  plane.receive(braking_verdict(0.0, 0.2, 0.2, 0.2, 0.0));
+  ASSERT_EQ(plane.step(slow_wreck_in(1.28)).plan, braking_at(0.3));
+  Scene later = slow_wreck_in(0.96);
+  later.time = 0.3;
+  const Reflex reflex = plane.step(later);
+  ASSERT_TRUE(reflex.switched.has_value());
+  EXPECT_EQ(reflex.switched->reason, SwitchReason::harder_needed);
+  EXPECT_GT(strength_of(reflex.plan), 0.3);
+}
+
+// Full braking will hit, a swerve will not; but the atlas knows one motion of each, and what was
+// begun by a better judge is not given up for that.
+TEST(ReflexPlane, WhereNoVerdictComesNothingIsGivenUp) {
+  ReflexPlane plane(with_atlas());
+  plane.receive(verdict_of(0.0, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.5}}));
+  ASSERT_EQ(plane.step(slow_wreck_in(1.28)).plan, manoeuvre::full_braking);
+  for (int k = 1; k <= 5; ++k) {
+    Scene close = slow_wreck_in(0.6);
+    close.time = 0.2 * k;
+    EXPECT_FALSE(plane.step(close).switched);
+  }
 }
 
 TEST(ReflexPlane, TakesTheMostSimilarOfSeveral) {

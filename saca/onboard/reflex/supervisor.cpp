@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 4> reason_names{"needed after all", "no l
 constexpr double rest_speed = 0.5;  // [m/s]
 
 double harm_of_going_on(const SupervisedScene& now) {
-  const JudgedPlan* const rest = going_on(now.verdict, now.under_way.plan);
+  const JudgedPlan* const rest = going_on(*now.verdict, now.under_way.plan);
   return rest == nullptr ? 0.0 : rest->harm;
 }
 
@@ -38,7 +38,7 @@ bool is_another(const Plan& plan, const Plan& under_way) {
 
 /// Harder braking, where that is expected to harm less than going on.
 std::optional<Switch> harder(const SupervisedScene& now) {
-  const JudgedPlan* const best = best_braking(now.verdict);
+  const JudgedPlan* const best = best_braking(*now.verdict);
   const double before = harm_of_going_on(now);
   if (best == nullptr || !is_harder(best->plan, now.under_way.plan) ||
       best->harm + collision::harm_tie >= before) {
@@ -54,6 +54,10 @@ std::optional<Switch> harder(const SupervisedScene& now) {
 
 std::string_view name(SwitchReason reason) {
   return name_of(reason, reason_names);
+}
+
+bool is_idle(const SupervisedScene& now) noexcept {
+  return now.under_way.plan.policy == PolicyId::no_intervention || now.finished;
 }
 
 const JudgedPlan* going_on(const Verdict& verdict, const Plan& under_way) noexcept {
@@ -94,11 +98,11 @@ bool Supervisor::somebody_came(const Scene& scene) const noexcept {
 }
 
 std::optional<Switch> Supervisor::better(const SupervisedScene& now) noexcept {
-  const JudgedPlan* const least = least_harmful(now.verdict);
+  const JudgedPlan* const least = least_harmful(*now.verdict);
   const double before = harm_of_going_on(now);
   const bool is_better = least != nullptr && least->harm + material_harm <= before &&
                          !manoeuvre::drifts(now.under_way.plan.policy);
-  const auto wanted = is_better ? std::optional(plan_of(now.verdict)) : std::nullopt;
+  const auto wanted = is_better ? std::optional(plan_of(*now.verdict)) : std::nullopt;
   const bool twice = wanted && better_before_ == wanted->policy;
   better_before_ = wanted ? std::optional(wanted->policy) : std::nullopt;
   if (!twice || !is_another(*wanted, now.under_way.plan) ||
@@ -114,31 +118,35 @@ std::optional<Switch> Supervisor::better(const SupervisedScene& now) noexcept {
 std::optional<Switch> Supervisor::look(const SupervisedScene& now,
                                        const manoeuvre::Car* car) noexcept {
   if (!is_due(now.scene, now.under_way, now.triggers, now.finished) ||
-      now.verdict.time <= verdict_at_) {
+      now.verdict->time <= verdict_at_) {
     return std::nullopt;
   }
-  looked_at_ = now.scene.time;
-  verdict_at_ = now.verdict.time;
+  if (!now.by_atlas) {  // the forecaster's next is looked at as soon as it comes
+    looked_at_ = now.scene.time;
+    verdict_at_ = now.verdict->time;
+  }
   const PolicyId policy = now.under_way.plan.policy;
-  const Plan wanted = plan_of(now.verdict);
+  const Plan wanted = plan_of(*now.verdict);
   const bool wants_nothing = wanted.policy == PolicyId::no_intervention;
   const bool is_clear =
-      wants_nothing && find_plan(now.verdict, manoeuvre::doing_nothing)->contact == 0.0;
+      wants_nothing && find_plan(*now.verdict, manoeuvre::doing_nothing)->contact == 0.0;
   std::optional<Switch> change;
   if (!is_clear) {
     clear_since_.reset();
   }
-  if (policy == PolicyId::no_intervention || now.finished) {
+  if (is_idle(now)) {
     if (!wants_nothing && now.triggers) {
-      const JudgedPlan* const judged = find_plan(now.verdict, wanted);
+      const JudgedPlan* const judged = find_plan(*now.verdict, wanted);
       change = Switch{.plan = wanted,
                       .reason = SwitchReason::needed_after_all,
                       .harm = judged == nullptr ? 0.0 : judged->harm,
                       .harm_before = harm_of_going_on(now)};
     }
+  } else if (now.by_atlas) {
+    change = harder(now);
   } else if (is_clear && policy == PolicyId::aeb) {
-    clear_since_ = clear_since_.value_or(now.verdict.time);
-    if (now.verdict.time >= *clear_since_ + clear_time && !now.threatened) {
+    clear_since_ = clear_since_.value_or(now.verdict->time);
+    if (now.verdict->time >= *clear_since_ + clear_time && !now.threatened) {
       change = Switch{.plan = manoeuvre::doing_nothing, .reason = SwitchReason::no_longer_needed};
     } else {
       change = better(now);

@@ -39,12 +39,17 @@ struct Switch {
 /// What the supervisor looks at. Refers to what it is given.
 struct SupervisedScene {
   const world::Scene& scene;
-  const Verdict& verdict;  ///< made after the plan under way began
+  const Verdict* verdict = nullptr;  ///< made after the plan under way began; not null for `look`
+  bool by_atlas = false;  ///< it is the reflex plane's own (AtlasJudge), which supposes that others
+                          ///< go on as they do
   const UnderWay& under_way;
   bool threatened = false;  ///< somebody is in conflict within T2, all going on as they do
   bool triggers = false;    ///< likewise within T1
   bool finished = false;    ///< the plan has reached its safe end
 };
+
+/// Whether nothing is under way any more: nothing was done, or the plan has reached its safe end.
+[[nodiscard]] bool is_idle(const SupervisedScene& now) noexcept;
 
 /// Watches a plan from the trigger on, verdict by verdict. It may
 /// * begin what a verdict speaks for where nothing was done, or a swerve has come to its end,
@@ -57,7 +62,8 @@ struct SupervisedScene {
 /// * begin another plan, gentler braking or doing nothing among them, where that is expected to
 ///   harm less by `material_harm`, in two verdicts one after the other: once, and once more for
 ///   each road user who has come since. Not out of a drift, which cannot be left.
-/// Trivially copyable; allocates nothing.
+/// By a verdict of the atlas, which knows one motion of each road user, nothing is given up that
+/// was begun: only the first and the third. Trivially copyable; allocates nothing.
 class Supervisor {
  public:
   static constexpr double period = look_ahead;  ///< between two verdicts that are looked at [s]

@@ -24,7 +24,7 @@ class Watched {
                              bool finished = false) {
     scene_.time = verdict.time;
     return supervisor_.look({.scene = scene_,
-                             .verdict = verdict,
+                             .verdict = &verdict,
                              .under_way = under_way_,
                              .threatened = threatened,
                              .triggers = threatened,
