@@ -2,7 +2,8 @@
 """Makes docs/suites.md from the figures that `saca suite`, `ladder`, `forecast eval`, `tables`, `memory calibrate` and `cases eval` print with --json.
 
 usage: tools/suite_results.py COMMIT FILE.json... [-- COMMIT FILE.json...]
-           puts together files, each made at the commit named before it, as docs/suites.json, and writes docs/suites.md from it
+           puts together files, each made on this machine at the commit named before it, as docs/suites.json, and writes docs/suites.md from it;
+           their date is that of the file
        tools/suite_results.py
            writes docs/suites.md from docs/suites.json
        tools/suite_results.py add COMMIT FILE.json...
@@ -21,11 +22,11 @@ from figures import ROOT, Figures, interval, percent, processor, table
 
 KEPT = ROOT / "docs" / "suites.json"
 PAGE = ROOT / "docs" / "suites.md"
-NUMBERS = ("harm", "regret", "harm_over_aeb", "harm_over_first", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
+NUMBERS = ("harm", "regret", "regret_published", "collision_loss", "switches", "harm_over_aeb", "harm_over_first", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
            "false_triggers", "twin_harm", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
-ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_reach", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_paper",
+ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_reach", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_reflex", "saca_paper",
          "saca_paper_at_once", "saca_paper_untuned", "saca_paper_unaware", "saca_paper_no_facts", "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "imitation", "imitation_drivers", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "least_danger", "least_joint_danger", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn",
          "beliefs_and_danger", "beliefs_and_experience", "beliefs_and_grip", "beliefs_and_followers",
@@ -53,8 +54,11 @@ def merged(commit, files):
         figures = json.loads(pathlib.Path(file).read_text())
         if "meta.command" not in figures:
             sys.exit(f'{file}: want figures with "meta.command", got none')
+        built_from = figures.get("meta.built_from", "")
+        if built_from and commit[:7] not in built_from:
+            sys.exit(f'{file}: want figures of a program of commit {commit}, got those of "{built_from}"')
         figures["meta.processor"] = processor()
-        figures["meta.date"] = datetime.date.today().isoformat()
+        figures["meta.date"] = datetime.date.fromtimestamp(pathlib.Path(file).stat().st_mtime).isoformat()
         figures["meta.commit"] = commit
         runs.append(trimmed(figures))
     return runs
@@ -100,6 +104,15 @@ def expectations(figures, head, method, families):
             table(["family", "decisions", "expected", "happened", "of braking expected", "happened"], lines)]
 
 
+def method_failures(figures, head, methods):
+    """How often methods threw; since 2026-11-30 nobody's figures count such encounters (told as method_faults)."""
+    failed = ", ".join(f"`{m}` {figures[f'{head}{m}.faults']}" for m in methods if figures.get(f"{head}{m}.faults"))
+    if not failed:
+        return ""
+    counted = "these encounters are left out" if head + "method_faults" in figures else "they count with what had been done until then"
+    return f" Encounters in which a method failed: {failed}; {counted}."
+
+
 def suite_section(figures, name):
     head = f"suite.{name}."
     methods = methods_of(figures, head)
@@ -120,7 +133,7 @@ def suite_section(figures, name):
               percent(figures, f"{head}{m}.needless"), interval(figures, f"{head}{m}.false_trigger_loss", 3).split(" ")[0], *in_twins(m)]
              for m in methods]
     text = [f"## Suite `{name}`, {figures[head + 'n']:,} encounters\n",
-            f"{figures[head + 'faults']} could not be played. Means with 95 % intervals; shares in per cent.\n",
+            f"{figures[head + 'faults']} could not be played.{method_failures(figures, head, methods)} Means with 95 % intervals; shares in per cent.\n",
             table(["method", "harm", "regret", "harm above AEB's", *([f"harm above that of `{first}`"] if first else []), "contact", "as good as the best",
                    "materially worse than AEB", "needless", "False-Trigger Loss", *(["harm in twins"] if has_twins else [])], lines)]
     families = sorted({key[len(head):].split(".")[1] for key in figures

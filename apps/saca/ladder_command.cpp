@@ -18,6 +18,7 @@ ExitCode climb_ladder(const LadderOptions& options) {
   if (suite.output.empty()) {
     suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);
   }
+  refuse_endings(suite.output, {".html"});
   need_writable({suite.output});
   const std::vector<suites::Rung> rungs = suites::rungs_with(suite.thinking, suite.danger);
   const auto run = need_whole(suites::run_suite(here(), suite, "ladder", suites::names_of(rungs)));
@@ -30,7 +31,7 @@ ExitCode climb_ladder(const LadderOptions& options) {
   write(suite.output, json_text(figures));
   write(page, report::suite_page(suites::ladder_page(run, climbed, name)));
   tell(options.as_json, figures,
-       fmt::format("{}\npage: {}\n", suites::ladder_text(climbed, suite.name), page.string()));
+       fmt::format("{}\npage: {}\n", suites::ladder_text(run, climbed, suite.name), page.string()));
   return suites::has_faults(run) ? some_failed : success;
 }
 
@@ -42,6 +43,7 @@ void add_ladder(CLI::App& line) {
       "Where regret comes from: what each thing that is not known costs; can be interrupted",
       climb_ladder);
   add_suite_options(command, options.suite);
+  command.get_option("--output")->description("Figures; beside them .html (default: runs/...)");
   add_json(command, options.as_json);
 }
 

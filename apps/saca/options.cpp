@@ -1,5 +1,7 @@
 #include "apps/saca/options.h"
 
+#include <algorithm>
+
 #include <fmt/ranges.h>
 
 #include "saca/base/core/suggestion.h"
@@ -107,6 +109,16 @@ void add_thresholds_options(CLI::App& command, reflex::Thresholds& thresholds) {
       ->check(CLI::Range(0.0, 1.0));
 }
 
+/// A folder's name as the shell completes it, without the slash at its end.
+CLI::Option* without_slash(CLI::Option* option) {
+  return option->transform([](std::string name) {
+    while (name.size() > 1 && name.back() == '/') {
+      name.pop_back();
+    }
+    return name;
+  });
+}
+
 /// The end of the words on `--llm`.
 constexpr const char* other_models =
     "replay:FILE: recorded replies; MODEL@URL: a server with /v1/chat/completions, key in "
@@ -123,8 +135,9 @@ void add_survey_options(CLI::App& command, installation::SurveyRequest& request)
 }
 
 void add_encounter_options(CLI::App& command, suites::SuiteRequest& from) {
-  add_needed(command, "name", from.name,
-             "A suite (natural, balanced), a family, a folder of scenarios, or 100car");
+  without_slash(add_needed(command, "name", from.name,
+                           "A suite (natural, balanced), a family, a folder of scenarios, or "
+                           "100car"));
   add(command, "--data", from.data, "Of 100car the folder of the study's release");
   add_draw_options(command, from);
   add(command, "--seed", from.seed, "Of all that is drawn: same seed, same figures");
@@ -151,9 +164,11 @@ void add_needed_model(CLI::App& command, std::string& model) {
 }
 
 void add_suite_options(CLI::App& command, suites::SuiteRequest& request) {
-  add_needed(command, "name", request.name,
-             "A suite (natural, balanced), a family, a table of the paper (table_2, table_2_late, "
-             "table_3), a folder of scenarios, 100car, traffic, or a regulation (fmvss127, r152)");
+  without_slash(
+      add_needed(command, "name", request.name,
+                 "A suite (natural, balanced), a family, a table of the paper (table_2, "
+                 "table_2_late, table_3), a folder of scenarios, 100car, traffic, or a regulation "
+                 "(fmvss127, r152)"));
   add(command, "--data", request.data,
       "Of 100car the folder of the study's release; of traffic (SACA in shadow) folders with "
       "CommonRoad files or that release");
@@ -175,6 +190,16 @@ void need_png_or_html(const std::string& output) {
   if (extension != ".png" && extension != ".html") {
     refuse(wrong_command_line,
            fmt::format("--output: want a name that ends in .png or .html, got '{}'", output));
+  }
+}
+
+void refuse_endings(const std::string& output, const std::vector<std::string>& endings) {
+  const std::string extension = fs::path(output).extension();
+  if (std::find(endings.begin(), endings.end(), extension) != endings.end()) {
+    refuse(wrong_command_line,
+           fmt::format("--output: want a name that does not end in {}, which is written beside it, "
+                       "got '{}'",
+                       extension, output));
   }
 }
 

@@ -92,4 +92,7 @@ void add_suite_options(CLI::App& command, suites::SuiteRequest& request);
 /// Refuses an --output that ends in neither .png nor .html.
 void need_png_or_html(const std::string& output);
 
+/// Refuses names of --output that end as what is written beside it does.
+void refuse_endings(const std::string& output, const std::vector<std::string>& endings);
+
 }  // namespace saca::app

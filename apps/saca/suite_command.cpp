@@ -1,4 +1,5 @@
 #include "apps/saca/options.h"
+#include "saca/lab/installation/drawn_suite.h"
 #include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/regulation/regulation_json.h"
 #include "saca/lab/regulation/regulation_page.h"
@@ -43,16 +44,23 @@ void write_and_tell(const fs::path& page, const report::SuitePage& made, const j
   tell(as_json, figures, text);
 }
 
+/// @param why  behind the option's name
+void refuse_options(const SuiteOptions& options, std::initializer_list<const char*> names,
+                    const std::string& why) {
+  for (const char* const name : names) {
+    if (given(options, name)) {
+      refuse(wrong_command_line, fmt::format("{}: {}", name, why));
+    }
+  }
+}
+
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
 ExitCode run_as_regulation(const SuiteOptions& options) {
   const suites::SuiteRequest& suite = options.suite;
-  for (const char* const name : {"--count", "--split", "--test-log", "--seed", "--exact",
-                                 "--no-twins", "--replay", "--t1-s", "--waiting-cost"}) {
-    if (given(options, name)) {
-      refuse(wrong_command_line,
-             fmt::format("{}: {} is a regulation, which is run as it stands", name, suite.name));
-    }
-  }
+  refuse_options(options,
+                 {"--count", "--split", "--test-log", "--seed", "--exact", "--no-twins", "--replay",
+                  "--t1-s", "--waiting-cost", "--danger", "--data"},
+                 suite.name + " is a regulation, which is run as it stands");
   if (thinks(options)) {
     refuse(wrong_command_line,
            fmt::format("--memory, --llm, --untuned: {} tests SACA as it ships, without them",
@@ -80,9 +88,20 @@ ExitCode run_as_regulation(const SuiteOptions& options) {
   return has_faults(run) ? some_failed : success;
 }
 
+/// The program, and all that changes what it sees in a drive.
+std::string made_by(const std::string& car) {
+  Fnv hash;
+  need(installation::add_inputs(here(), car, hash));
+  return fmt::format("{} ({:016x})", installation::version_text(here()), hash.value());
+}
+
 /// SACA beside recorded drives, in shadow.
-void watch_traffic(const SuiteOptions& options) {
+ExitCode watch_traffic(const SuiteOptions& options) {
   const suites::SuiteRequest& suite = options.suite;
+  refuse_options(
+      options,
+      {"--methods", "--split", "--test-log", "--exact", "--no-twins", "--danger", "--replay"},
+      "SACA alone watches the suite traffic, as it was recorded");
   const suites::TrafficWatch watch{
       .folders = suite.data,
       .count = suite.count,
@@ -97,8 +116,9 @@ void watch_traffic(const SuiteOptions& options) {
   const suites::WatchTools tools{
       .car = &planes->inputs.car, .intent = &planes->inputs.intent, .saca = &planes->setup};
   const auto traffic =
-      need_whole(suites::watch_traffic(watch, tools, SACA_VERSION, here().display));
-  if (suites::shadow_figures(traffic.rows, "").drives == 0) {
+      need_whole(suites::watch_traffic(watch, tools, made_by(watch.car), here().display));
+  const suites::ShadowFigures all = suites::shadow_figures(traffic.rows, "");
+  if (all.drives == 0) {
     refuse(bad_input,
            fmt::format("{}: want drives that can be watched, got none of {}: {}",
                        watch.folders.front(), traffic.rows.size(), traffic.rows.front().left_out));
@@ -108,10 +128,14 @@ void watch_traffic(const SuiteOptions& options) {
   write_and_tell(page, suites::traffic_page(traffic, tools, figures), figures, options.as_json,
                  fmt::format("{}page: {}, figures: {}\n", suites::traffic_text(traffic),
                              page.string(), fs::path(page).replace_extension(".json").string()));
+  return all.failed > 0 ? some_failed : success;
 }
 
 /// Writes an encounter as a scenario, as the suite plays it, and tells what plays it.
 void write_encounter(const SuiteOptions& options) {
+  refuse_options(options, {"--t1-s", "--waiting-cost"},
+                 "`saca run`, which plays what --replay writes, has T1 and cost of waiting as they "
+                 "ship");
   const auto source = need(suites::open_encounters(here(), options.suite, "suite"));
   const auto replay = need(suites::replay_of(source, options.suite, *options.replay));
   write(replay.file, replay.text);
@@ -129,6 +153,7 @@ ExitCode play_suite(const SuiteOptions& options) {
     suite.output =
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
   }
+  refuse_endings(suite.output, {".json", ".html"});
   need_writable({suite.output});
   const auto run = need_whole(suites::run_suite(here(), suite, "suite", methods));
   const suites::SuiteResult result = suites::result_of(run, suite.seed);
@@ -160,13 +185,13 @@ ExitCode run_suite(const SuiteOptions& options) {
            "--memory, --llm, --untuned: SACA watches the suite traffic with the verdict alone");
   }
   if (is_traffic) {
-    watch_traffic(options);
-  } else if (options.replay) {
-    write_encounter(options);
-  } else {
-    return play_suite(options);
+    return watch_traffic(options);
   }
-  return success;
+  if (options.replay) {
+    write_encounter(options);
+    return success;
+  }
+  return play_suite(options);
 }
 
 }  // namespace

@@ -26,10 +26,9 @@ paper_comparison::TableBook made_book(const TableRequest& request,
     const auto run = need_whole(paper_comparison::run_table(here(), table, request, methods));
     if (run.figures.few.empty()) {
       refuse(some_failed, fmt::format("{}: none of the first {} encounters could be played: {}",
-                                      table.title, run.num_few, run.first_fault));
+                                      table.title, run.num_few, run.failures));
     }
-    add_table(book, run.figures, run.made);
-    book.faults = book.faults || run.faults;
+    add_table(book, run.figures, run.made, run.failures);
   }
   if (!paper_comparison::asked_models(request.thinking).empty()) {
     auto timed = paper_comparison::time_replies(here(), request);
@@ -60,7 +59,7 @@ ExitCode make_tables(const TablesOptions& options) {
                        ? "Table IV, how long replies take, needs a model: --llm local.\n"
                        : "",
                    index.string()));
-  return book.faults ? some_failed : success;
+  return book.failures.empty() ? success : some_failed;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ struct PlanesSetup {
   arbitration::Judge judge;  ///< makes the verdicts, on a thread of its own at pace `real`; empty:
                              ///< a arbitration::Forecaster
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
-  Clock* clock = nullptr;                 ///< real time
+  Clock* clock = nullptr;                 ///< real time; not null, at either pace
   std::size_t tape_size = 0;              ///< memory of the tape [byte], see Tape; 0: no tape
   std::size_t most_events = 4096;         ///< of the thinking plane, kept of one encounter, >= 2
 };

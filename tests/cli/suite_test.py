@@ -119,6 +119,12 @@ def test_a_journal_of_other_work_is_refused(tmp_path):
     (["suite", "traffic", "--data", ".", "--llm", "local"], WRONG_COMMAND_LINE, "the verdict alone"),
     (["suite", "fmvss127", "--t1-s", "2"], WRONG_COMMAND_LINE, "run as it stands"),
     (["suite", "balanced", "--t1-s", "9"], WRONG_COMMAND_LINE, "--t1-s"),
+    (["suite", "balanced", "--t1-s", "2", "--replay", "3"], WRONG_COMMAND_LINE, "--t1-s: `saca run`"),
+    (["suite", "traffic", "--data", ".", "--methods", "aeb"], WRONG_COMMAND_LINE, "--methods: SACA alone watches"),
+    (["suite", "traffic", "--data", ".", "--replay", "3"], WRONG_COMMAND_LINE, "--replay: SACA alone watches"),
+    (["suite", "balanced", "--output", "a.json"], WRONG_COMMAND_LINE, "does not end in .json, which is written beside it, got 'a.json'"),
+    (["suite", "balanced", "--output", "a.html"], WRONG_COMMAND_LINE, "does not end in .html"),
+    (["ladder", "balanced", "--output", "a.html"], WRONG_COMMAND_LINE, "does not end in .html"),
     (["suite", "balanced", "--waiting-cost", "-1"], WRONG_COMMAND_LINE, "--waiting-cost"),
 ])
 def test_what_cannot_be_run_is_refused(tmp_path, arguments, code, wanted):
@@ -136,6 +142,25 @@ def test_a_folder_of_scenarios_is_a_suite(tmp_path):
     # Both show what a lane change is for: braking harms more, and by more than half a per cent.
     assert told["suite.mine.aeb.regret"] > 0.005
     assert told["suite.mine.oracle.regret"] == pytest.approx(0.0, abs=0.003)
+    # As shells complete it.
+    again = figures(saca("suite", "mine/", "--methods", "aeb,oracle", "--exact", "--json", cwd=tmp_path))
+    assert again["suite.mine.aeb.regret"] == told["suite.mine.aeb.regret"]
+    assert [file.name for file in (tmp_path / "runs").glob("*.h5")] == ["suite-mine-calibration.h5"]
+    # Of another car the file that a row is played by names it.
+    replayed = saca("suite", "mine", "--car", "midsize_suv", "--replay", 0, cwd=tmp_path).stdout.split()[2]
+    assert 'midsize_suv' in (tmp_path / replayed).read_text()
+
+
+def test_a_journal_of_a_car_that_has_changed_is_refused(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "one.toml").write_text((ROOT / "scenarios/showcase_1.toml").read_text())
+    for kind in ("toml", "tuning.toml"):
+        (tmp_path / f"my_car.{kind}").write_text((ROOT / f"data/vehicles/compact_rwd_ev.{kind}").read_text())
+    asked = ("suite", "mine", "--car", "my_car.toml", "--methods", "aeb", "--output", "m.h5")
+    assert saca(*asked, cwd=tmp_path).returncode == SUCCESS
+    car = tmp_path / "my_car.toml"
+    car.write_text(car.read_text() + "# another day\n")
+    assert "m.h5.journal" in one_error(saca(*asked, cwd=tmp_path), BAD_INPUT)
 
 
 def test_a_folder_that_may_not_be_written_is_told(tmp_path):

@@ -11,6 +11,26 @@ using eval::Episodes;
 using eval::Learner;
 using eval::with_interval;
 
+namespace {
+
+/// A line on what is left out; empty: nothing is.
+std::string failures_text(const std::vector<Episodes>& all) {
+  int left_out = 0;
+  std::string first;
+  for (const Episodes& episodes : all) {
+    for (const eval::Episode& one : episodes.of) {
+      if (!one.row.fault.empty()) {
+        first = left_out == 0 ? one.row.fault : first;
+        ++left_out;
+      }
+    }
+  }
+  return left_out == 0 ? ""
+                       : fmt::format("{} episodes are left out; the first: {}\n", left_out, first);
+}
+
+}  // namespace
+
 std::string text_of(const std::vector<Episodes>& all) {
   std::string text =
       fmt::format("{} encounters of each of {} seeds; means over seeds with 95 % intervals\n\n",
@@ -21,7 +41,7 @@ std::string text_of(const std::vector<Episodes>& all) {
   for (std::size_t m = 0; m < curriculum_methods.size(); ++m) {
     const auto of = [&](eval::EpisodeMeasure measure) { return eval::over_seeds(all, m, measure); };
     const auto percent = [&](eval::EpisodeMeasure measure) {
-      return fmt::format("{:.1f}", 100.0 * of(measure).value);
+      return eval::percent_of(of(measure));
     };
     const bool remembers = m < eval::num_learners;
     text += fmt::format(
@@ -37,7 +57,7 @@ std::string text_of(const std::vector<Episodes>& all) {
                         with_interval(eval::harm_over(all, pair), 5),
                         curriculum_methods.at(pair.other));
   }
-  return text;
+  return text + failures_text(all);
 }
 
 }  // namespace saca::curricula

@@ -37,9 +37,11 @@ report::ChartSheet learning_curves(const std::vector<Episodes>& all, const std::
       const double middle = met + 0.5 * static_cast<double>(block.size());
       met += static_cast<double>(block.size());
       const Estimate one = eval::over_seeds(block, m, eval::episode_regret);
-      line.points.push_back({middle, one.value});
-      lost.y.high = std::max(lost.y.high, 1.1 * one.value);
-      lost.y.low = std::min(lost.y.low, 1.1 * one.value);
+      if (one.n > 0) {
+        line.points.push_back({middle, one.value});
+        lost.y.high = std::max(lost.y.high, 1.1 * one.value);
+        lost.y.low = std::min(lost.y.low, 1.1 * one.value);
+      }
       const Estimate answered = eval::over_seeds(block, m, eval::episode_from_memory);
       if (answered.n > 0) {
         share.points.push_back({middle, 100.0 * answered.value});

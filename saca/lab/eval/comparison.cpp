@@ -17,13 +17,13 @@ using manoeuvre::PolicyId;
 /// A simulation, and who has done the same in it so far.
 struct Branch {
   ClosedLoop loop;
-  std::vector<std::size_t> methods;
-  Avoider* avoider = nullptr;      ///< who drives; nullptr: the loop itself
-  bool untouched = true;           ///< nobody has acted in it
-  bool decided = false;            ///< at this instant everybody has been asked
-  double time = 0.0;               ///< of the look before [s]
-  double ego_speed = 0.0;          ///< then [m/s]
-  double peak_deceleration = 0.0;  ///< so far [m/s^2]
+  std::vector<std::size_t> methods;  ///< none: it only looks for T1
+  Avoider* avoider = nullptr;        ///< who drives; nullptr: the loop itself
+  bool untouched = true;             ///< nobody has acted in it
+  bool decided = false;              ///< at this instant everybody has been asked
+  double time = 0.0;                 ///< of the look before [s]
+  double ego_speed = 0.0;            ///< then [m/s]
+  double peak_deceleration = 0.0;    ///< so far [m/s^2]
 };
 
 /// What some methods do now alike.
@@ -134,7 +134,14 @@ bool Play::ask(Branch& branch) {
   if (branch.untouched) {
     note_trigger(branch);
   }
-  const std::vector<Group> groups = decide(branch);
+  std::vector<Group> groups = decide(branch);
+  if (branch.untouched && !comparison_.trigger &&
+      std::all_of(groups.begin(), groups.end(), [](const Group& one) { return one.action; })) {
+    groups.push_back({std::nullopt, {}, nullptr});
+  }
+  if (groups.empty()) {
+    return false;  // T1 is known
+  }
   for (std::size_t k = 1; k < groups.size(); ++k) {
     Branch split = branch;
     split.decided = true;
@@ -226,17 +233,25 @@ void Play::begin(Branch& branch, const Group& group) {
   for (const std::size_t method : group.methods) {
     MethodRun& run = comparison_.runs[method];
     run.switches += run.plan ? 1 : 0;
-    if (!run.plan) {
+    if (refused && !run.plan) {
+      run.reason = "cannot be driven: " + *refused;
+    }
+    if (!run.plan || run.plan->policy == PolicyId::no_intervention) {
       run.plan = group.avoider != nullptr ? group.action->plan : loop.plan();
-      if (refused) {
-        run.reason = "cannot be driven: " + *refused;
-      }
     }
   }
 }
 
 void Play::conclude(const Branch& branch) {
+  const bool never_came = branch.untouched && !comparison_.trigger;
+  if (branch.methods.empty() && !never_came) {
+    return;
+  }
   const auto outcome = branch.loop.outcome();
+  if (never_came && outcome) {
+    comparison_.best_harm = outcome->harm;
+    comparison_.published_best_harm = outcome->harm;
+  }
   for (const std::size_t method : branch.methods) {
     MethodRun& run = comparison_.runs[method];
     run.clearance = collision::far_away;

@@ -15,8 +15,10 @@ namespace saca::eval {
 /// What one method did in one encounter, and what came of it.
 struct MethodRun {
   std::optional<double> acted_at;       ///< when it first intervened [s]; nullopt: never
-  std::optional<manoeuvre::Plan> plan;  ///< with what, as it was carried out
-  std::string source;                   ///< where that decision came from, in a word
+  std::optional<manoeuvre::Plan> plan;  ///< with what, as it was carried out; no intervention where
+                                        ///< it decided on that and never on more; nullopt: it
+                                        ///< decided on nothing
+  std::string source;                   ///< where its first decision came from, in a word
   std::string reason;                   ///< why, in a sentence
   int switches = 0;                     ///< how often it began another plan later
   double harm = 0.0;                    ///< of all contacts
@@ -59,7 +61,8 @@ struct Comparison {
 /// Runs methods in closed loop, in one encounter, with the same world, draws and perception.
 ///
 /// Methods that have done the same so far share one simulation; where they part, it is copied. So a
-/// method's row is what it alone would have met, at a fraction of the work.
+/// method's row is what it alone would have met, at a fraction of the work; and what all are held
+/// against (T1, what was tried then) does not depend on which there are.
 /// @param methods    made for this encounter; each is stepped at every instant of it
 /// @param hindsight  of this encounter
 /// @return  Error::Code::out_of_range when the encounter cannot be played: a scene of it breaks a

@@ -161,6 +161,43 @@ TEST_F(ComparisonTest, ASecondPlanIsASwitchAndTheFirstIsKept) {
   EXPECT_EQ(run.switches, 1);
 }
 
+// What was done first, not what was decided first: doing nothing may become anything later.
+TEST_F(ComparisonTest, ThePlanIsThatWithWhichItFirstIntervened) {
+  Methods methods;
+  methods.push_back(std::make_unique<Scripted>(std::vector<std::pair<double, manoeuvre::Plan>>{
+      {1.0, manoeuvre::doing_nothing}, {1.3, {PolicyId::t_drift_left, std::nullopt}}}));
+  const MethodRun run = ComparisonTest::run(methods).runs[0];
+  EXPECT_EQ(run.plan->policy, PolicyId::t_drift_left);
+  EXPECT_NEAR(*run.acted_at, 1.3, 1e-9);
+  EXPECT_EQ(run.switches, 1);
+}
+
+// Who acts long before T1 leaves nobody to find it; what he is held against is the same.
+TEST_F(ComparisonTest, WhatAllAreHeldAgainstDoesNotDependOnWhoTheyAre) {
+  const Comparison alone = run(list(scripted(0.5, PolicyId::aes_left)));
+  const Comparison beside =
+      run(list(scripted(0.5, PolicyId::aes_left), scripted(100.0, PolicyId::aeb)));
+  ASSERT_TRUE(beside.trigger.has_value());
+  EXPECT_EQ(alone.trigger, beside.trigger);
+  EXPECT_EQ(alone.threat, beside.threat);
+  EXPECT_EQ(alone.woke, beside.woke);
+  EXPECT_EQ(alone.tried.size(), beside.tried.size());
+  EXPECT_EQ(alone.best, beside.best);
+  EXPECT_EQ(alone.best_harm, beside.best_harm);
+  EXPECT_EQ(alone.runs[0].harm, beside.runs[0].harm);
+  EXPECT_EQ(alone.runs.size(), 1U);
+}
+
+// T1 never comes where nothing is near enough for it.
+TEST_F(ComparisonTest, WhereT1NeverComesTheBestIsDoingNothing) {
+  stage_.thresholds.trigger = -1.0;
+  const Comparison told = run(list(scripted(100.0, PolicyId::aeb)));
+  ASSERT_EQ(told.trigger, std::nullopt);
+  ASSERT_GT(told.runs[0].harm, 0.0);
+  EXPECT_EQ(told.best_harm, told.runs[0].harm);
+  EXPECT_EQ(told.published_best_harm, told.runs[0].harm);
+}
+
 TEST_F(ComparisonTest, AMethodThatThrowsIsNotedAndTheOthersGoOn) {
   Methods methods = list(std::unique_ptr<encounter::Method>(std::make_unique<Throwing>()),
                          scripted(2.0, PolicyId::aeb));

@@ -24,7 +24,7 @@ using encounter::View;
 using manoeuvre::full_braking;
 using manoeuvre::PolicyId;
 
-constexpr std::array<MethodInfo, 41> infos{{
+constexpr std::array<MethodInfo, 42> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -48,6 +48,8 @@ constexpr std::array<MethodInfo, 41> infos{{
      "As SACA; it waits for T1 even where waiting is expected to cost harm."},
     {"saca_full_braking", "SACA, braking with one strength",
      "As SACA; who brakes does so with all the grip."},
+    {"saca_reflex", "SACA, the reflex plane alone",
+     "As SACA by its interface for C: neither forecaster, memory nor model; the atlas judges."},
     {"saca_paper", "SACA, as in the paper",
      "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
      "is held against braking."},
@@ -215,8 +217,14 @@ runtime::PlanesSetup planes_of(std::string_view name, const MethodTools& tools) 
   if (name == "saca_at_t1") {
     planes.thresholds.waiting_cost.reset();
   }
-  planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
-  planes.model = name == "saca_no_model" ? nullptr : planes.model;
+  const bool is_alone = name == "saca_reflex";
+  if (is_alone) {
+    planes.judge = [](const auto&...) {  // as if it came too late, always
+      return reflex::Verdict{.time = -std::numeric_limits<double>::infinity()};
+    };
+  }
+  planes.memory = is_alone || name == "saca_no_memory" ? nullptr : planes.memory;
+  planes.model = is_alone || name == "saca_no_model" ? nullptr : planes.model;
   if (find_method(name)->needs == Needs::untuned) {
     planes.model = tools.untuned;
   }

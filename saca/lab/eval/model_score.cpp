@@ -30,7 +30,7 @@ std::optional<Calibration> calibration_of(std::span<const SuiteRow> rows) {
   const std::size_t reasoned = place_of("saca_paper");
   std::vector<JudgedAnswer> judged;
   for (const SuiteRow& row : rows) {
-    if (!row.fault.empty() || row.risk.tried.empty()) {
+    if (!counts_in_figures(row) || row.risk.tried.empty()) {
       continue;
     }
     const auto& thinking = row.risk.runs[reasoned].thinking;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -362,6 +363,31 @@ Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) 
                              row.error().message)};
   }
   return row;
+}
+
+bool counts_in_figures(const SuiteRow& row) {
+  const auto threw = [](const MethodRun& run) { return !run.fault.empty(); };
+  const auto nobody_threw = [&](const Comparison& one) {
+    return std::none_of(one.runs.begin(), one.runs.end(), threw);
+  };
+  return row.fault.empty() && nobody_threw(row.risk) && (!row.twin || nobody_threw(*row.twin));
+}
+
+std::optional<std::string> failure_of(const SuiteRow& row,
+                                      const std::vector<std::string>& methods) {
+  if (!row.fault.empty()) {
+    return "could not be played: " + row.fault;
+  }
+  const auto thrown = [&](const Comparison& one, const char* where) -> std::optional<std::string> {
+    for (std::size_t m = 0; m < one.runs.size(); ++m) {
+      if (!one.runs[m].fault.empty()) {
+        return fmt::format("{} failed{}: {}", methods.at(m), where, one.runs[m].fault);
+      }
+    }
+    return std::nullopt;
+  };
+  const auto in_risk = thrown(row.risk, "");
+  return in_risk || !row.twin ? in_risk : thrown(*row.twin, " in its twin");
 }
 
 bool agrees(const DriverRow& driver, const std::optional<manoeuvre::Plan>& plan) {

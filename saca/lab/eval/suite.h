@@ -63,6 +63,15 @@ struct SuiteRow {
   std::optional<DriverRow> driver;  ///< where the ego was recorded
 };
 
+/// What went wrong in an encounter or its twin, in words: why it could not be played, or which
+/// method threw what. nullopt: nothing did.
+/// @param methods  names, in the order of the row's runs
+[[nodiscard]] std::optional<std::string> failure_of(const SuiteRow& row,
+                                                    const std::vector<std::string>& methods);
+/// Whether it counts in figures: nothing went wrong. What a method did that threw says nothing, and
+/// without it others would be held against other encounters.
+[[nodiscard]] bool counts_in_figures(const SuiteRow& row);
+
 /// Seed of what is left to chance in one encounter: `saca run FILE --seed` of it plays the same
 /// world.
 [[nodiscard]] std::uint64_t encounter_seed(std::uint64_t seed, std::uint64_t number);

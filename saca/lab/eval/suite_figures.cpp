@@ -238,7 +238,6 @@ std::optional<TwinFigures> twin_figures(const MethodRows& of) {
 void count_decisions(const MethodRows& of, MethodFigures& figures) {
   for (const SuiteRow* const row : of.rows) {
     const MethodRun& run = run_of(*row, of.method);
-    figures.faults += run.fault.empty() ? 0 : 1;
     if (run.plan) {
       ++figures.sources[run.source];
       ++figures.reasons[run.reason];
@@ -247,6 +246,12 @@ void count_decisions(const MethodRows& of, MethodFigures& figures) {
       add(figures.thinking, *run.thinking);
     }
   }
+}
+
+/// Whether a method failed in an encounter or its twin.
+bool threw(const SuiteRow& row, std::size_t method) {
+  return row.fault.empty() && (!row.risk.runs[method].fault.empty() ||
+                               (row.twin && !row.twin->runs[method].fault.empty()));
 }
 
 MethodFigures figures_of(const MethodRows& of, const std::string& name) {
@@ -273,7 +278,7 @@ std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
                                          std::optional<std::size_t> aeb, std::uint64_t seed) {
   std::vector<const SuiteRow*> good;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(good),
-               [](const SuiteRow* row) { return row->fault.empty(); });
+               [](const SuiteRow* row) { return counts_in_figures(*row); });
   std::vector<MethodFigures> all;
   if (good.empty()) {
     return all;
@@ -281,6 +286,8 @@ std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
   const Bootstrap bootstrap(good.size(), seed);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     all.push_back(figures_of({good, m, aeb, bootstrap}, methods[m]));
+    all.back().faults = static_cast<int>(std::count_if(
+        rows.begin(), rows.end(), [&](const SuiteRow* row) { return threw(*row, m); }));
   }
   return all;
 }
@@ -289,7 +296,7 @@ Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method, std::siz
                     std::uint64_t seed) {
   std::vector<std::optional<double>> differences;
   for (const SuiteRow& row : rows) {
-    if (row.fault.empty()) {
+    if (counts_in_figures(row)) {
       differences.emplace_back(row.risk.runs[method].harm - row.risk.runs[other].harm);
     }
   }

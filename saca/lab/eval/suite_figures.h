@@ -20,6 +20,11 @@ struct Estimate {
   int n = 0;
 };
 
+/// Does the interval of a difference exclude 0? Of a single encounter there is none.
+[[nodiscard]] inline bool is_sure(const Estimate& difference) {
+  return difference.n > 1 && (difference.low > 0.0 || difference.high < 0.0);
+}
+
 /// Harm above AEB's that counts as materially worse [-]: half a per cent of a severely injured
 /// person.
 constexpr double material = 0.005;
@@ -65,13 +70,13 @@ struct MethodFigures {
   std::optional<encounter::ThinkingFigures> thinking;  ///< summed, without answers; nullopt: the
                                                        ///< method does not think ahead
   std::optional<ExpectedFigures> expected;             ///< nullopt: nothing was decided by verdicts
-  int faults = 0;
+  int faults = 0;  ///< encounters in which, or in whose twin, it threw: nobody's figures count them
 };
 
 /// The paper's false-trigger loss: 0.5 for policies 0 to 4, 1 for 5 and 6, 0 for none.
 [[nodiscard]] double false_trigger_loss(const MethodRun& run);
 
-/// Figures of all methods over the rows that have no fault.
+/// Figures of all methods over the rows in which nothing went wrong (counts_in_figures).
 ///
 /// Intervals are those of 1,000 bootstrap samples of encounters (B. Efron, Bootstrap methods:
 /// another look at the jackknife, Annals of Statistics 7, 1979), percentiles 2.5 and 97.5, the same
@@ -83,8 +88,8 @@ struct MethodFigures {
                                                        std::optional<std::size_t> aeb,
                                                        std::uint64_t seed);
 
-/// Mean of the harm of one method above that of another, over the rows that have no fault: paired,
-/// with the intervals of suite_figures.
+/// Mean of the harm of one method above that of another, over the same rows: paired, with the
+/// intervals of suite_figures.
 /// @param method, other  indices into the runs of a row
 [[nodiscard]] Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method,
                                   std::size_t other, std::uint64_t seed);

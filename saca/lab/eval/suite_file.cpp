@@ -82,17 +82,18 @@ std::optional<Error> write_suite(const std::filesystem::path& path, std::span<co
   std::vector<std::string> faults;
   for (const SuiteRow& row : rows) {
     families.push_back(row.family);
-    faults.push_back(row.fault);
+    faults.push_back(failure_of(row, methods).value_or(""));
     std::replace(faults.back().begin(), faults.back().end(), '\n', ' ');
   }
   write_column(writer, "number", rows,
                [](const SuiteRow& row) { return static_cast<double>(row.number); });
   formats::write_lines(writer, "family", families);
   formats::write_lines(writer, "fault", faults);
-  write_comparisons(writer, "risk", rows, methods,
-                    [](const SuiteRow& row) { return row.fault.empty() ? &row.risk : nullptr; });
+  write_comparisons(writer, "risk", rows, methods, [](const SuiteRow& row) {
+    return counts_in_figures(row) ? &row.risk : nullptr;
+  });
   write_comparisons(writer, "twin", rows, methods, [](const SuiteRow& row) {
-    return row.fault.empty() && row.twin ? &*row.twin : nullptr;
+    return counts_in_figures(row) && row.twin ? &*row.twin : nullptr;
   });
   return formats::write_sealed_hdf5(path, "saca.suite/1", writer);
 }

@@ -53,7 +53,7 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
         EXPECT_THAT(formats::read_lines(reader, "family", 2),
                     testing::ElementsAre("crossing", "head_on"));
         EXPECT_THAT(formats::read_lines(reader, "fault", 2),
-                    testing::ElementsAre("", "broken in two"));
+                    testing::ElementsAre("", "could not be played: broken in two"));
         EXPECT_EQ(column("risk/trigger_s")[0], 3.25);
         EXPECT_TRUE(std::isnan(column("risk/trigger_s")[1]));
         EXPECT_EQ(column("risk/best_policy")[0], 3.0);

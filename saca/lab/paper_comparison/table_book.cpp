@@ -1,5 +1,7 @@
 #include "saca/lab/paper_comparison/table_book.h"
 
+#include <fmt/format.h>
+
 #include "saca/lab/paper_comparison/table_json.h"
 #include "saca/lab/paper_comparison/table_page.h"
 #include "saca/lab/paper_comparison/table_text.h"
@@ -26,8 +28,12 @@ TableBook empty_book(const TableRequest& request, std::string_view version) {
   return book;
 }
 
-void add_table(TableBook& book, const TableFigures& figures, const json& made) {
+void add_table(TableBook& book, const TableFigures& figures, const json& made,
+               const std::string& failures) {
   add_figures(book.figures, figures);
+  if (!failures.empty()) {
+    book.failures.push_back(fmt::format("{}: {}", figures.table->title, failures));
+  }
   for (const char* const key : {"meta.memory", "meta.model", "meta.untuned"}) {
     if (made.contains(key)) {
       book.meta[key] = made[key];
@@ -46,12 +52,16 @@ void add_replies(TableBook& book, const std::vector<TimedModel>& timed) {
 report::SuitePage page_of(const TableBook& book) {
   report::SuitePage page = book.page;
   page.footnotes = suites::footnotes_of(book.meta);
+  page.footnotes.insert(page.footnotes.end(), book.failures.begin(), book.failures.end());
   return page;
 }
 
 json json_of(const TableBook& book) {
   json out = book.meta;
   out.update(book.figures);
+  if (!book.failures.empty()) {
+    out["meta.failures"] = fmt::format("{}", fmt::join(book.failures, "; "));
+  }
   return out;
 }
 
@@ -60,7 +70,11 @@ std::string text_of(const TableBook& book) {
   for (const report::PageTable& table : book.page.tables) {
     text += text_of(table);
   }
-  return text + book.page.lines.front() + "\n";
+  text += book.page.lines.front() + "\n";
+  for (const std::string& failure : book.failures) {
+    text += failure + "\n";
+  }
+  return text;
 }
 
 }  // namespace saca::paper_comparison

@@ -17,16 +17,18 @@ struct TableBook {
   nlohmann::json meta;  ///< "meta.command" and so on
   nlohmann::json figures = nlohmann::json::object();
   report::SuitePage page;
-  bool faults = false;  ///< something could not be played, or a method failed
+  std::vector<std::string> failures;  ///< of each table in which something went wrong, in words
 };
 
 /// Without any table yet.
 /// @param version  of the program
 [[nodiscard]] TableBook empty_book(const TableRequest& request, std::string_view version);
 
-/// @param figures  with `few`
-/// @param made     "meta...." of the table's run: it says which memory and models were asked
-void add_table(TableBook& book, const TableFigures& figures, const nlohmann::json& made);
+/// @param figures   with `few`
+/// @param made      "meta...." of the table's run: it says which memory and models were asked
+/// @param failures  suites::failures_text of that run
+void add_table(TableBook& book, const TableFigures& figures, const nlohmann::json& made,
+               const std::string& failures);
 
 /// Table IV.
 void add_replies(TableBook& book, const std::vector<TimedModel>& timed);

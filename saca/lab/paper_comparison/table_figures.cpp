@@ -42,7 +42,7 @@ TableFigures table_figures(const eval::PaperTable& table, const suites::SuiteRun
   for (std::size_t m = 0; m < run.methods.size(); ++m) {
     std::vector<const SuiteRow*> answered;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(answered), [&](const SuiteRow* row) {
-      return row->fault.empty() && is_in_time(row->risk.runs[m]);
+      return counts_in_figures(*row) && is_in_time(row->risk.runs[m]);
     });
     if (!answered.empty()) {
       figures.in_time[m] = figures_of(answered, run.methods, seed)[m];

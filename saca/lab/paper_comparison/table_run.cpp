@@ -41,8 +41,7 @@ Result<std::optional<TableRun>> run_table(const Installation& here, const eval::
   TableRun run{.figures = table_figures(table, done, static_cast<std::size_t>(few), request.seed),
                .num_few = few,
                .made = done.meta,
-               .faults = result.faults + result.method_faults > 0,
-               .first_fault = done.rows.front().fault};
+               .failures = suites::failures_text(done)};
   if (!run.figures.few.empty()) {
     if (auto problem = suites::write_rows_and_page(done, result, suite)) {
       return *std::move(problem);

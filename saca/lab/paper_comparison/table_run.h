@@ -14,11 +14,10 @@ namespace saca::paper_comparison {
 
 /// One table that was run.
 struct TableRun {
-  TableFigures figures;     ///< without `few` where none of these could be played
-  int num_few = 0;          ///< the paper's number of encounters
-  nlohmann::json made;      ///< "meta...." of the run
-  bool faults = false;      ///< something could not be played, or a method failed
-  std::string first_fault;  ///< where `figures` is without `few`: why the first was not played
+  TableFigures figures;  ///< without `few` where none of these could be played
+  int num_few = 0;       ///< the paper's number of encounters
+  nlohmann::json made;   ///< "meta...." of the run
+  std::string failures;  ///< suites::failures_text of all its encounters
 };
 
 /// Runs a table with the car of the paper's scenes, or what is left of it, and leaves its rows and

@@ -32,7 +32,7 @@ TEST_F(TableRunTest, LeavesRowsAndPageAndTellsTheFigures) {
   ASSERT_TRUE(run.has_value()) << run.error().message;
   ASSERT_TRUE(run.value().has_value());
   EXPECT_EQ(run.value()->figures.few.size(), 2U);
-  EXPECT_FALSE(run.value()->faults);
+  EXPECT_EQ(run.value()->failures, "");
   EXPECT_EQ(run.value()->made.at("meta.version"), "1.2.3");
   EXPECT_TRUE(fs::exists(fs::path(request_.output) / "table_3.h5"));
   EXPECT_TRUE(fs::exists(fs::path(request_.output) / "table_3.html"));

@@ -62,7 +62,7 @@ Result<EncounterSource> hundred_car_source(const std::vector<std::string>& data,
     return outcomes.error();
   }
   std::vector<SuiteEncounter> all;
-  Fnv hash;
+  Fnv hash = draw.played_with;
   for (const importers::HundredCarOutcome& outcome : outcomes.value()) {
     if (const auto* const rebuilt = outcome.rebuilt()) {
       hash.add(scenario::write_scenario(rebuilt->scenario));
@@ -97,7 +97,7 @@ Result<EncounterSource> folder_source(const std::string& folder, const Encounter
                  folder + ": want a folder with scenarios (*.toml), got none"};
   }
   std::vector<SuiteEncounter> all;
-  Fnv hash;
+  Fnv hash = draw.played_with;
   for (const fs::path& file : files) {
     const auto text = read_file(file);
     if (!text.has_value()) {
@@ -113,13 +113,14 @@ Result<EncounterSource> folder_source(const std::string& folder, const Encounter
                    .family = file.stem(),
                    .scenario = std::move(scenario).value(),
                    .twin = {}});
+    all.back().scenario.car = draw.car_name;
   }
   return source_of(std::move(all), draw.count,
                    fmt::format("folder {} ({:016x})", folder, hash.value()));
 }
 
 Result<EncounterSource> paper_table_source(std::string_view table, const fs::path& scenarios,
-                                           const EncounterDraw& draw, Twins twins, Fnv hash) {
+                                           const EncounterDraw& draw, Twins twins) {
   const eval::PaperTable* const paper = eval::find_paper_table(table);
   expects(paper != nullptr && draw.car != nullptr, "a table of the paper, and a car");
   auto conditions = eval::encounters_of(*paper, scenarios, *draw.car);
@@ -127,6 +128,7 @@ Result<EncounterSource> paper_table_source(std::string_view table, const fs::pat
     return conditions.error();
   }
   std::vector<SuiteEncounter> all = std::move(conditions).value();
+  Fnv hash = draw.played_with;
   for (SuiteEncounter& one : all) {
     one.scenario.car = draw.car_name;
     one.twin->car = draw.car_name;

@@ -34,6 +34,8 @@ struct EncounterDraw {
   std::string car_name;
   const manoeuvre::Car* car = nullptr;  ///< of that name
   int count = 0;                        ///< at most
+  Fnv played_with = {};                 ///< of all but the encounters themselves on which rows
+                                        ///< depend: car, data, program
 };
 
 /// Every event of the 100-Car study that can be rebuilt, until an interrupt that is watched for.
@@ -51,11 +53,9 @@ struct EncounterDraw {
 /// A table of the paper: its conditions one after the other, over and over.
 /// @param table      name of one (eval::paper_tables)
 /// @param scenarios  folder of those that ship
-/// @param hash       of all else on which the encounters depend
 [[nodiscard]] Result<EncounterSource> paper_table_source(std::string_view table,
                                                          const std::filesystem::path& scenarios,
-                                                         const EncounterDraw& draw, Twins twins,
-                                                         Fnv hash);
+                                                         const EncounterDraw& draw, Twins twins);
 
 /// What is drawn of the families of a suite.
 /// @param what  names all on which the encounters depend

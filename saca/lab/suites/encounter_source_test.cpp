@@ -48,6 +48,10 @@ TEST(FolderSource, HasItsScenariosByRisingName) {
   EXPECT_EQ(source.value().at(2).error().message, "want an encounter below 2, got 2");
   EXPECT_THAT(source.value().what, MatchesRegex("folder .*_two \\([0-9a-f]{16}\\)"));
   EXPECT_EQ(folder_source(folder, draw_of(1)).value().count, 1);
+  EncounterDraw other = draw_of(10);
+  other.played_with.add("another mass of the same car");
+  EXPECT_NE(folder_source(folder, other).value().what, source.value().what);
+  EXPECT_EQ(source.value().at(0).value().scenario.car, draw_of(10).car_name);
 }
 
 TEST(FolderSource, RefusesAnEmptyFolderAndNamesABrokenFile) {
@@ -77,7 +81,7 @@ TEST(HundredCarSource, WantsOneFolder) {
 
 // The one-way road is one condition: the second encounter is the first again.
 TEST(PaperTableSource, HasItsConditionsOverAndOver) {
-  const auto source = paper_table_source("table_3", "scenarios", draw_of(7), Twins::played, {});
+  const auto source = paper_table_source("table_3", "scenarios", draw_of(7), Twins::played);
   ASSERT_TRUE(source.has_value()) << source.error().message;
   EXPECT_EQ(source.value().count, 7);
   const auto first = source.value().at(0).value();
@@ -86,14 +90,13 @@ TEST(PaperTableSource, HasItsConditionsOverAndOver) {
   EXPECT_EQ(scenario::write_scenario(first.scenario), scenario::write_scenario(second.scenario));
   EXPECT_TRUE(first.twin.has_value());
   const auto alone =
-      paper_table_source("table_3", "scenarios", draw_of(7), Twins::left_out, {}).value();
+      paper_table_source("table_3", "scenarios", draw_of(7), Twins::left_out).value();
   EXPECT_FALSE(alone.at(0).value().twin.has_value());
   EXPECT_EQ(alone.what, source.value().what);
-  Fnv other;
-  other.add("another car");
-  EXPECT_NE(
-      paper_table_source("table_3", "scenarios", draw_of(7), Twins::played, other).value().what,
-      alone.what);
+  EncounterDraw other = draw_of(7);
+  other.played_with.add("another car");
+  EXPECT_NE(paper_table_source("table_3", "scenarios", other, Twins::played).value().what,
+            alone.what);
 }
 
 TEST(DrawnSource, IsTheSuiteWithTwinsOrWithout) {

@@ -87,11 +87,7 @@ std::vector<RungFigures> climb(const SuiteRun& run, const std::vector<Rung>& run
 }
 
 bool has_faults(const SuiteRun& run) {
-  return std::any_of(run.rows.begin(), run.rows.end(), [](const eval::SuiteRow& row) {
-    return !row.fault.empty() ||
-           std::any_of(row.risk.runs.begin(), row.risk.runs.end(),
-                       [](const eval::MethodRun& one) { return !one.fault.empty(); });
-  });
+  return !std::all_of(run.rows.begin(), run.rows.end(), eval::counts_in_figures);
 }
 
 }  // namespace saca::suites

@@ -9,6 +9,7 @@
 #include "saca/lab/eval/methods.h"
 #include "saca/lab/suites/decisions.h"
 #include "saca/lab/suites/method_list.h"
+#include "saca/lab/suites/suite_result.h"
 #include "saca/lab/suites/suite_tables.h"
 
 namespace saca::suites {
@@ -21,9 +22,9 @@ std::string step_text(const RungFigures& one) {
   if (!one.step) {
     return one.rung.step;
   }
-  const bool sure = one.step->low > 0.0 || one.step->high < 0.0;
   return fmt::format("{}: {:+.4f} ({:+.4f} to {:+.4f}){}", one.rung.step, one.step->value,
-                     one.step->low, one.step->high, sure ? "" : ", which may be chance");
+                     one.step->low, one.step->high,
+                     eval::is_sure(*one.step) ? "" : ", which may be chance");
 }
 
 report::DotChart regret_chart(const std::vector<RungFigures>& climbed) {
@@ -82,16 +83,23 @@ json ladder_json(const SuiteRun& run, const std::vector<RungFigures>& climbed,
       add_decisions(out, place + ".", one.figures);
     }
   }
+  out[head + "faults"] =
+      std::count_if(run.rows.begin(), run.rows.end(),
+                    [](const eval::SuiteRow& row) { return !counts_in_figures(row); });
   return out;
 }
 
-std::string ladder_text(const std::vector<RungFigures>& climbed, const std::string& suite) {
+std::string ladder_text(const SuiteRun& run, const std::vector<RungFigures>& climbed,
+                        const std::string& suite) {
   std::string text = fmt::format(
       "{}: {} encounters; regret, and what each step adds to it, with 95 % intervals\n\n", suite,
       climbed.front().figures.regret.n);
   for (const RungFigures& one : climbed) {
     text += fmt::format("{:22} {:28} {}\n", one.rung.method, with_interval(one.figures.regret, 4),
                         step_text(one));
+  }
+  if (const std::string failures = failures_text(run); !failures.empty()) {
+    text += "\n" + failures + "\n";
   }
   return text;
 }
@@ -111,6 +119,9 @@ report::SuitePage ladder_page(const SuiteRun& run, const std::vector<RungFigures
     }
   }
   page.footnotes = footnotes_of(run.meta);
+  if (const std::string failures = failures_text(run); !failures.empty()) {
+    page.footnotes.push_back(failures);
+  }
   return page;
 }
 

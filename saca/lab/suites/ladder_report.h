@@ -15,10 +15,10 @@ namespace saca::suites {
                                          const std::vector<RungFigures>& climbed,
                                          const std::string& name);
 
-/// What it prints for people: a line for each rung.
+/// What it prints for people: a line for each rung, and what went wrong.
 /// @param suite    as it was named
 /// @param climbed  at least one
-[[nodiscard]] std::string ladder_text(const std::vector<RungFigures>& climbed,
+[[nodiscard]] std::string ladder_text(const SuiteRun& run, const std::vector<RungFigures>& climbed,
                                       const std::string& suite);
 
 /// Its page: regret of each rung, what each step costs, where decisions came from.

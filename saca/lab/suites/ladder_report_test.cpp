@@ -26,12 +26,18 @@ std::vector<RungFigures> two_rungs(double step_low) {
 }
 
 TEST(LadderText, TellsWhatAStepCostsAndWhatMayBeChance) {
-  const std::string sure = ladder_text(two_rungs(0.1), "folder/natural");
+  SuiteRun run = made_run({"oracle", "aeb"}, {failed_row(4, "a", "no road")});
+  const std::string sure = ladder_text(run, two_rungs(0.1), "folder/natural");
+  EXPECT_THAT(sure,
+              HasSubstr("\n1 of 1 encounters are left out; the first: encounter 4 could not be "
+                        "played: no road\n"));
   EXPECT_THAT(sure, StartsWith("folder/natural: 7 encounters; regret, "));
   EXPECT_THAT(sure, HasSubstr("\noracle                 -0.0100 (-0.0200 to 0.0000)  Best in "
                               "hindsight.\n"));
   EXPECT_THAT(sure, HasSubstr("always braking: +0.2000 (+0.1000 to +0.3000)\n"));
-  EXPECT_THAT(ladder_text(two_rungs(-0.1), "natural"),
+  run.rows.clear();
+  EXPECT_THAT(ladder_text(run, two_rungs(0.1), "natural"), Not(HasSubstr("left out")));
+  EXPECT_THAT(ladder_text(run, two_rungs(-0.1), "natural"),
               HasSubstr("+0.2000 (-0.1000 to +0.3000), which may be chance\n"));
 }
 

@@ -28,13 +28,12 @@ namespace {
 /// What is no suite: recordings, a folder of scenarios, a table of the paper.
 Result<EncounterSource> open_source(const Installation& here, const SuiteRequest& request,
                                     const Inputs& inputs, Twins twins) {
-  const EncounterDraw draw{.car_name = inputs.car_name, .car = &inputs.car, .count = request.count};
+  EncounterDraw draw{.car_name = inputs.car_name, .car = &inputs.car, .count = request.count};
+  if (auto problem = installation::add_inputs(here, request.car, draw.played_with)) {
+    return *problem;
+  }
   if (eval::find_paper_table(request.name) != nullptr) {
-    Fnv hash;
-    if (auto problem = installation::add_inputs(here, request.car, hash)) {
-      return *problem;
-    }
-    return paper_table_source(request.name, here.root / "scenarios", draw, twins, hash);
+    return paper_table_source(request.name, here.root / "scenarios", draw, twins);
   }
   return request.name == "100car" ? hundred_car_source(request.data, draw)
                                   : folder_source(request.name, draw);

@@ -67,6 +67,9 @@ std::string line_of(const ShadowRow& row) {
   nlohmann::json line{{"source", row.source}, {"drive", row.drive}};
   if (!row.left_out.empty()) {
     line["left_out"] = row.left_out;
+    if (row.failed) {
+      line["failed"] = true;
+    }
   } else {
     line["seconds"] = row.watched.seconds;
     line["metres"] = row.watched.metres;
@@ -97,6 +100,7 @@ Result<ShadowRow> shadow_row_from(std::string_view line) {
     ShadowRow row{.source = in.at("source").get<std::string>(),
                   .drive = in.at("drive").get<std::string>(),
                   .left_out = in.value("left_out", std::string()),
+                  .failed = in.value("failed", false),
                   .watched = {}};
     if (row.left_out.empty()) {
       row.watched.seconds = in.at("seconds").get<double>();
@@ -131,6 +135,7 @@ ShadowFigures shadow_figures(std::span<const ShadowRow> rows, std::string_view s
     }
     if (!row.left_out.empty()) {
       ++figures.left_out;
+      figures.failed += row.failed ? 1 : 0;
       continue;
     }
     ++figures.drives;

@@ -17,6 +17,7 @@ struct ShadowRow {
   std::string source;    ///< "us101", "lankershim", "100car"
   std::string drive;     ///< names it within the source
   std::string left_out;  ///< why it is not watched; empty: it is
+  bool failed = false;   ///< likewise: SACA threw
   ShadowDrive watched;
 };
 
@@ -41,6 +42,7 @@ struct ShadowCounts {
 struct ShadowFigures {
   int drives = 0;
   int left_out = 0;
+  int failed = 0;  ///< of these, in which SACA threw
   double hours = 0.0;
   double kilometres = 0.0;
   eval::Rate previews_per_hour;

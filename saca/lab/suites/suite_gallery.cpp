@@ -79,7 +79,8 @@ std::vector<report::GalleryCard> gallery_of(const SuiteRun& run, const SuiteRequ
                                             const PictureOf& picture_of) {
   std::vector<const SuiteRow*> worst;
   for (const SuiteRow& row : run.rows) {
-    if (row.fault.empty() && row.risk.runs.front().harm > row.risk.best_harm + eval::material) {
+    if (counts_in_figures(row) &&
+        row.risk.runs.front().harm > row.risk.best_harm + eval::material) {
       worst.push_back(&row);
     }
   }

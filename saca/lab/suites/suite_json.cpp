@@ -69,7 +69,7 @@ void add_drivers(json& out, const std::string& head, const SuiteRun& run) {
   out[head + "driver.met"] = drivers.met;
   out[head + "driver.braked"] = drivers.braked;
   out[head + "driver.steered"] = drivers.steered;
-  for (std::size_t m = 0; m < run.methods.size(); ++m) {
+  for (std::size_t m = 0; m < run.methods.size() && drivers.met_nobody > 0; ++m) {
     out[head + run.methods[m] + ".agrees_with_driver"] = drivers.agreement[m];
   }
 }
@@ -85,6 +85,7 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteRequest&
   add_drivers(out, head, run);
   out[head + "n"] = run.rows.size();
   out[head + "faults"] = result.faults;
+  out[head + "method_faults"] = result.method_faults;
   if (run.worked > 0) {
     const double rate = run.worked / run.seconds;
     out[head + "encounters_per_s"] = rate;

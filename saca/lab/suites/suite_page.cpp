@@ -15,7 +15,7 @@ namespace {
 using eval::MethodFigures;
 using eval::SuiteRow;
 
-constexpr std::size_t most_footnotes = 30;  // with encounters that could not be played
+constexpr std::size_t most_footnotes = 30;  // with encounters that are left out
 
 }  // namespace
 
@@ -25,7 +25,7 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
   page.title = fmt::format("{}: {} encounters, {} methods", request.name, run.rows.size(),
                            run.methods.size());
   if (result.all.empty()) {
-    page.lines = {"No encounter could be played."};
+    page.lines = {failures_text(run)};
     return page;
   }
   page.lines = sentences_of(run, result);
@@ -45,9 +45,9 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
   page.gallery = gallery_of(run, request, picture_of);
   page.footnotes = footnotes_of(run.meta);
   for (const SuiteRow& row : run.rows) {
-    if (!row.fault.empty() && page.footnotes.size() < most_footnotes) {
-      page.footnotes.push_back(
-          fmt::format("encounter {} could not be played: {}", row.number, row.fault));
+    const auto failure = failure_of(row, run.methods);
+    if (failure && page.footnotes.size() < most_footnotes) {
+      page.footnotes.push_back(fmt::format("encounter {} {}", row.number, *failure));
     }
   }
   return page;

@@ -44,7 +44,9 @@ TEST(SuitePage, RecordedDriversStandFirst) {
 
 TEST(SuitePage, WithoutARowThereIsOneSentence) {
   const report::SuitePage told = page(made_run({"aeb"}, {failed_row(0, "a", "no road")}));
-  EXPECT_THAT(told.lines, ElementsAre("No encounter could be played."));
+  EXPECT_THAT(told.lines,
+              ElementsAre("1 of 1 encounters are left out; the first: encounter 0 could not be "
+                          "played: no road"));
   EXPECT_THAT(told.tables, IsEmpty());
 }
 

@@ -71,9 +71,11 @@ std::string work_of(const Play& play, const SuiteRequest& request) {
     imitators += fmt::format(", {}: {:016x}", method, network.digest());
   }
   return fmt::format(
-      "{}, {}, seed {}{}{}{}{}{}: {}", bench.source.what, request.car, request.seed,
-      request.exact ? ", exact" : "", thresholds_arguments(request.thresholds),
-      part("memory", bench.thinking->memory_text()), part("model", bench.thinking->model_text()),
+      "{}, intentions {:016x}, {}, seed {}{}{}{}{}{}: {}", bench.source.what,
+      intent::digest(*bench.intent), request.car, request.seed,
+      std::string(request.exact ? ", exact" : "") + (request.no_twins ? ", no twins" : ""),
+      thresholds_arguments(request.thresholds), part("memory", bench.thinking->memory_text()),
+      part("model", bench.thinking->model_text()),
       part("untuned", untuned_text(*bench.thinking)) +
           part("danger", bench.danger == nullptr
                              ? std::nullopt
@@ -162,7 +164,8 @@ nlohmann::json meta_of(const SuiteRequest& request, const std::vector<std::strin
                       {"meta.n", std::to_string(bench.source.count)},
                       {"meta.split", request.split},
                       {"meta.car", request.car},
-                      {"meta.version", caller.version}};
+                      {"meta.version", caller.version},
+                      {"meta.built_from", caller.built_from}};
   if (const auto& memory = bench.thinking->memory_text()) {
     meta["meta.memory"] = *memory;
   }

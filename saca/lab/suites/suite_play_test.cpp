@@ -112,8 +112,11 @@ TEST_F(SuitePlayTest, AJournalOfOtherWorkIsRefused) {
   ASSERT_TRUE(play({"aeb"}).has_value());
   const std::string journal = request_.output + ".journal";
   EXPECT_THAT(read_file(journal).value(),
-              HasSubstr("saca 1.2 (commit abc) suite of standing cars, compact_rwd_ev, seed 2, "
-                        "exact: aeb\n"));
+              AllOf(HasSubstr("saca 1.2 (commit abc) suite of standing cars, intentions "),
+                    HasSubstr(", compact_rwd_ev, seed 2, exact: aeb\n")));
+  request_.no_twins = true;
+  EXPECT_FALSE(play({"aeb"}).has_value()) << "rows with twins are others";
+  request_.no_twins = false;
   const auto other = play({"nothing"});
   ASSERT_FALSE(other.has_value());
   EXPECT_EQ(other.error().code, Error::Code::malformed);

@@ -1,5 +1,7 @@
 #include "saca/lab/suites/suite_result.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -8,7 +10,6 @@
 namespace saca::suites {
 namespace {
 
-using eval::MethodFigures;
 using eval::SuiteRow;
 
 std::vector<const SuiteRow*> rows_of_family(const SuiteRun& run, const std::string& family) {
@@ -29,12 +30,10 @@ SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
   std::set<std::string> families;
   for (const SuiteRow& row : run.rows) {
     result.faults += row.fault.empty() ? 0 : 1;
+    result.method_faults += row.fault.empty() && !counts_in_figures(row) ? 1 : 0;
     families.insert(row.family);
   }
   result.all = eval::suite_figures(rows_of_family(run, ""), run.methods, aeb, seed);
-  for (const MethodFigures& one : result.all) {
-    result.method_faults += one.faults;
-  }
   for (const std::string& family : families) {
     result.families[family] =
         eval::suite_figures(rows_of_family(run, family), run.methods, aeb, seed);
@@ -42,12 +41,25 @@ SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
   return result;
 }
 
+std::string failures_text(const SuiteRun& run) {
+  int left_out = 0;
+  std::string first;
+  for (const SuiteRow& row : run.rows) {
+    if (const auto failure = failure_of(row, run.methods)) {
+      first = left_out == 0 ? fmt::format("encounter {} {}", row.number, *failure) : first;
+      ++left_out;
+    }
+  }
+  return left_out == 0 ? ""
+                       : fmt::format("{} of {} encounters are left out; the first: {}", left_out,
+                                     run.rows.size(), first);
+}
+
 DriverFigures driver_figures(const SuiteRun& run) {
   DriverFigures figures;
   figures.agreement.resize(run.methods.size());
-  int succeeded = 0;
   for (const SuiteRow& row : run.rows) {
-    if (!row.fault.empty() || !row.driver) {
+    if (!counts_in_figures(row) || !row.driver) {
       continue;
     }
     ++figures.count;
@@ -56,7 +68,7 @@ DriverFigures driver_figures(const SuiteRun& run) {
     figures.braked += row.driver->brakes ? 1 : 0;
     figures.steered += row.driver->steers != 0 ? 1 : 0;
     if (!row.driver->met) {
-      ++succeeded;
+      ++figures.met_nobody;
       for (std::size_t m = 0; m < run.methods.size(); ++m) {
         figures.agreement[m] += eval::agrees(*row.driver, row.risk.runs[m].plan) ? 1.0 : 0.0;
       }
@@ -64,7 +76,7 @@ DriverFigures driver_figures(const SuiteRun& run) {
   }
   figures.harm /= std::max(1, figures.count);
   for (double& agreement : figures.agreement) {
-    agreement /= std::max(1, succeeded);
+    agreement /= std::max(1, figures.met_nobody);
   }
   return figures;
 }

@@ -20,7 +20,7 @@ std::string counted(const SuiteRun& run, std::size_t method, std::size_t other) 
   int worse = 0;
   int all = 0;
   for (const SuiteRow& row : run.rows) {
-    if (row.fault.empty()) {
+    if (counts_in_figures(row)) {
       const double more = row.risk.runs[method].harm - row.risk.runs[other].harm;
       better += more < -eval::material ? 1 : 0;
       worse += more > eval::material ? 1 : 0;
@@ -36,15 +36,15 @@ std::string counted(const SuiteRun& run, std::size_t method, std::size_t other) 
 /// The first method held against emergency braking.
 std::string against_braking(const MethodFigures& first, const MethodFigures& aeb) {
   const double more = first.over_aeb.value;
-  const bool sure = first.over_aeb.low > 0.0 || first.over_aeb.high < 0.0;
+  const bool same = first.over_aeb.low == 0.0 && first.over_aeb.high == 0.0;
   return fmt::format(
       "{} does {:.4f} harm per encounter, emergency braking at T1 {:.4f}: {} (difference {} per "
       "encounter, paired, 95 % interval).",
       title_of(first.method), first.harm.value, aeb.harm.value,
-      first.over_aeb.low == first.over_aeb.high ? "the same"
-      : !sure                                   ? "the difference may be chance"
-      : more < 0                                ? "it is better"
-                                                : "it is worse",
+      same                             ? "the same"
+      : !eval::is_sure(first.over_aeb) ? "the difference may be chance"
+      : more < 0                       ? "it is better"
+                                       : "it is worse",
       with_interval(first.over_aeb, 4));
 }
 
@@ -57,7 +57,7 @@ std::string where_it_is_better(const SuiteResult& result) {
     }
     const Estimate& over = figures.front().over_aeb;
     std::string& where = over.high < 0.0 ? where_better : where_worse;
-    if (over.high < 0.0 || over.low > 0.0) {
+    if (eval::is_sure(over)) {
       where += (where.empty() ? "" : ", ") + fmt::format("{} ({:+.4f})", family, over.value);
     }
   }

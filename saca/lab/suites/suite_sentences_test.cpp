@@ -38,6 +38,15 @@ TEST(SuiteSentences, WhatMayBeChanceIsCalledSo) {
   EXPECT_EQ(lines[2], "Better than braking in: no family. Worse in: no family.");
 }
 
+// Of one encounter all bootstrap samples are alike: that says nothing.
+TEST(SuiteSentences, OneEncounterIsNoProof) {
+  const auto lines = told(made_run({"saca", "aeb"}, {made_row(0, "a", {0.1, 0.35}, 0.1)}));
+  EXPECT_THAT(lines[0], HasSubstr("the difference may be chance"));
+  EXPECT_EQ(lines[2], "Better than braking in: no family. Worse in: no family.");
+  const auto alike = told(made_run({"saca", "aeb"}, {made_row(0, "a", {0.1, 0.1}, 0.1)}));
+  EXPECT_THAT(alike[0], HasSubstr("the same (difference"));
+}
+
 TEST(SuiteSentences, WithoutBrakingOnlyRegretIsTold) {
   const auto lines = told(made_run({"saca", "oracle"}, {made_row(0, "a", {0.25, 0.0}, 0.0)}));
   ASSERT_EQ(lines.size(), 2U);

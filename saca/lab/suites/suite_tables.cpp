@@ -18,7 +18,7 @@ using eval::SuiteRow;
 std::vector<const SuiteRow*> recorded_rows(const SuiteRun& run) {
   std::vector<const SuiteRow*> recorded;
   for (const SuiteRow& row : run.rows) {
-    if (row.fault.empty() && row.driver) {
+    if (counts_in_figures(row) && row.driver) {
       recorded.push_back(&row);
     }
   }

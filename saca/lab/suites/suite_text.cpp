@@ -34,7 +34,7 @@ std::string drivers_text(const SuiteRun& run) {
   std::string text = fmt::format(
       "\n{} recorded drivers: harm {:.4f}, {} met somebody, {} braked, {} moved aside\n",
       drivers.count, drivers.harm, drivers.met, drivers.braked, drivers.steered);
-  for (std::size_t m = 0; m < run.methods.size(); ++m) {
+  for (std::size_t m = 0; m < run.methods.size() && drivers.met_nobody > 0; ++m) {
     text += fmt::format("  {} does as the driver did in {:.0f} % of those who met nobody\n",
                         run.methods[m], 100.0 * drivers.agreement[m]);
   }
@@ -64,8 +64,8 @@ std::string text_of(const SuiteRun& run, const SuiteResult& result, const SuiteR
     text += fmt::format("\n{:.1f} encounters/s on {} threads\n", run.worked / run.seconds,
                         request.threads);
   }
-  if (result.method_faults > 0) {
-    text += fmt::format("{} times a method failed: the rows hold why\n", result.method_faults);
+  if (const std::string failures = failures_text(run); !failures.empty()) {
+    text += "\n" + failures + "\n";
   }
   return text;
 }

@@ -31,6 +31,7 @@ void add_counts(json& out, const std::string& place, const std::string& many,
 void add_shadow_figures(json& out, const std::string& place, const ShadowFigures& one) {
   out[place + "drives"] = one.drives;
   out[place + "left_out"] = one.left_out;
+  out[place + "failed"] = one.failed;
   out[place + "exposure_h"] = one.hours;
   out[place + "exposure_km"] = one.kilometres;
   out[place + "previews"] = one.previews_per_hour.count;

@@ -36,6 +36,7 @@ ShadowRow watched_row(const DriveToWatch& drive, const WatchTools& tools,
     }
   } catch (const std::exception& fault) {
     row.left_out = fault.what();
+    row.failed = true;
   }
   return row;
 }
@@ -53,7 +54,7 @@ Result<ShadowRow> row_of_drive(const std::string& line, const DriveToWatch& driv
 
 Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& watch,
                                                     const WatchTools& tools,
-                                                    const std::string& version,
+                                                    const std::string& made_by,
                                                     long_work::ProgressDisplay display) {
   long_work::watch_for_interrupt();
   auto there = find_drives(watch.folders);
@@ -74,9 +75,10 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& watch,
       {.journal = watch.output + ".journal",
        .title = fmt::format(
            "saca {} suite traffic, {}, seed {}, count {}, {}, danger from {} and {} m/s^2 on, "
-           "data {:016x}",
-           version, watch.car, watch.seed, watch.count, thresholds_text(watch.thresholds),
-           eval::hard_braking, eval::hard_steering, found.hash.value()),
+           "data {:016x}, intentions {:016x}",
+           made_by, watch.car, watch.seed, watch.count, thresholds_text(watch.thresholds),
+           eval::hard_braking, eval::hard_steering, found.hash.value(),
+           intent::digest(*tools.intent)),
        .progress = "suite traffic",
        .unit = "drives",
        .count = traffic.drives.size(),

@@ -40,11 +40,11 @@ struct WatchedTraffic {
 
 /// Reads the folders and watches, with progress on the error stream and a journal that the same
 /// watch goes on from.
-/// @param version  of the program, for the journal
+/// @param made_by  the program and the data that it watches with: the journal of another is refused
 /// @return  nullopt: interrupted. Error::Code::malformed, naming file and reason, where a file
 ///          cannot be read; set-based predictions are passed over
 [[nodiscard]] Result<std::optional<WatchedTraffic>> watch_traffic(
-    const TrafficWatch& watch, const WatchTools& tools, const std::string& version,
+    const TrafficWatch& watch, const WatchTools& tools, const std::string& made_by,
     long_work::ProgressDisplay display);
 
 /// The command that watches the same again.

@@ -3,7 +3,8 @@
 
 /* The reflex plane for programs in C, and for languages that call C: one vehicle package in
  * (`saca atlas package`), then a scene in and an answer out at 10 to 100 Hz, and commands to the
- * car at up to 1,000 Hz. Nothing is thought: where a forecaster would have spoken, the atlas does.
+ * car at up to 1,000 Hz. Nothing is thought: where a forecaster would have spoken, the atlas does,
+ * which knows one motion of each road user, so that it chooses worse (docs/decisions/0037).
  *
  * Frames and units are those of ISO 8855: x ahead, y to the left, angles counter-clockwise in
  * radians; metres, seconds, kilograms. W is fixed to the ground, B to the ego at its centre of

@@ -23,8 +23,8 @@ namespace saca::preview {
 
 /// What futures are forecast with. What it points to outlives the forecasts.
 struct ForecastTools {
-  const manoeuvre::Car* car = nullptr;
-  const collision::HarmModel* harm = nullptr;
+  const manoeuvre::Car* car = nullptr;          ///< not null
+  const collision::HarmModel* harm = nullptr;   ///< likewise
   const atlas::Atlas* atlas = nullptr;          ///< of this car; nullptr: everything is rolled out
   const danger::DangerModel* danger = nullptr;  ///< of this car; nullptr: the best of few evasions
   intent::MotionLaw motion = hard_driving();    ///< how the others move under an intention
