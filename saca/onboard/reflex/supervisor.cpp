@@ -36,6 +36,19 @@ bool is_another(const Plan& plan, const Plan& under_way) {
          (plan.policy == PolicyId::aeb && strength_of(plan) < strength_of(under_way));
 }
 
+/// What the verdict speaks for, where nothing is under way and the trigger's rule fires.
+std::optional<Switch> needed_after_all(const SupervisedScene& now) {
+  const Plan wanted = plan_of(*now.verdict);
+  if (wanted.policy == PolicyId::no_intervention || !now.triggers) {
+    return std::nullopt;
+  }
+  const JudgedPlan* const judged = find_plan(*now.verdict, wanted);
+  return Switch{.plan = wanted,
+                .reason = SwitchReason::needed_after_all,
+                .harm = judged == nullptr ? 0.0 : judged->harm,
+                .harm_before = harm_of_going_on(now)};
+}
+
 /// Harder braking, where that is expected to harm less than going on.
 std::optional<Switch> harder(const SupervisedScene& now) {
   const JudgedPlan* const best = best_braking(*now.verdict);
@@ -126,22 +139,14 @@ std::optional<Switch> Supervisor::look(const SupervisedScene& now,
     verdict_at_ = now.verdict->time;
   }
   const PolicyId policy = now.under_way.plan.policy;
-  const Plan wanted = plan_of(*now.verdict);
-  const bool wants_nothing = wanted.policy == PolicyId::no_intervention;
-  const bool is_clear =
-      wants_nothing && find_plan(*now.verdict, manoeuvre::doing_nothing)->contact == 0.0;
+  const bool is_clear = plan_of(*now.verdict).policy == PolicyId::no_intervention &&
+                        find_plan(*now.verdict, manoeuvre::doing_nothing)->contact == 0.0;
   std::optional<Switch> change;
   if (!is_clear) {
     clear_since_.reset();
   }
   if (is_idle(now)) {
-    if (!wants_nothing && now.triggers) {
-      const JudgedPlan* const judged = find_plan(*now.verdict, wanted);
-      change = Switch{.plan = wanted,
-                      .reason = SwitchReason::needed_after_all,
-                      .harm = judged == nullptr ? 0.0 : judged->harm,
-                      .harm_before = harm_of_going_on(now)};
-    }
+    change = needed_after_all(now);
   } else if (now.by_atlas) {
     change = harder(now);
   } else if (is_clear && policy == PolicyId::aeb) {
