@@ -2,6 +2,7 @@
 #include "saca/lab/report/suite_page.h"
 #include "saca/lab/suites/ladder_report.h"
 #include "saca/lab/suites/opened_suite.h"
+#include "saca/lab/suites/suite_result.h"
 
 namespace saca::app {
 namespace {
@@ -24,7 +25,7 @@ ExitCode climb_ladder(const LadderOptions& options) {
   const auto run = need_whole(suites::run_suite(here(), suite, "ladder", suites::names_of(rungs)));
   const auto climbed = suites::climb(run, rungs, suite.seed);
   if (climbed.empty()) {
-    refuse(some_failed, suite.name + ": no encounter could be played; the journal holds why");
+    refuse(some_failed, suite.name + ": " + suites::failures_text(run));
   }
   const nlohmann::json figures = suites::ladder_json(run, climbed, name);
   const fs::path page = fs::path(suite.output).replace_extension(".html");

@@ -8,6 +8,7 @@
 #include "saca/lab/model_trials/model_info.h"
 #include "saca/lab/model_trials/model_score_report.h"
 #include "saca/lab/suites/opened_suite.h"
+#include "saca/lab/suites/suite_result.h"
 
 namespace saca::app {
 namespace {
@@ -57,11 +58,9 @@ ExitCode score_model(const ScoreOptions& options) {
   }
   const auto run =
       need_whole(suites::run_suite(here(), suite, "model score", eval::scored_methods()));
-  const auto num_faults =
-      std::count_if(run.rows.begin(), run.rows.end(),
-                    [](const eval::SuiteRow& row) { return !row.fault.empty(); });
-  if (static_cast<std::size_t>(num_faults) == run.rows.size()) {
-    refuse(some_failed, suite.name + ": no encounter could be played; the journal holds why");
+  const std::string failures = suites::failures_text(run);
+  if (std::none_of(run.rows.begin(), run.rows.end(), eval::counts_in_figures)) {
+    refuse(some_failed, suite.name + ": " + failures);
   }
   const eval::ModelScore score = eval::model_score(run.rows, suite.seed);
   const auto description = run.meta.at("meta.model").get<std::string>();
@@ -69,8 +68,9 @@ ExitCode score_model(const ScoreOptions& options) {
        model_trials::model_score_json(
            score, command_line(options.survey, "model score") + " --llm " + options.model,
            description),
-       model_trials::model_score_text(score, description));
-  return num_faults > 0 ? some_failed : success;
+       model_trials::model_score_text(score, description) +
+           (failures.empty() ? "" : failures + "\n"));
+  return failures.empty() ? success : some_failed;
 }
 
 }  // namespace

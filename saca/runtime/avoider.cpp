@@ -41,8 +41,7 @@ Answer Avoider::answer(const reflex::IntakeResult& taken, Clock::Time at) {
   const world::Scene& scene = intake_.scene();
   if (taken.new_drive) {
     observer_ = intent::Observer(*setup_.intent);
-    planes_.begin_anew(runtime::Reset::drive);
-    taken.goes_on ? encounter_.begin_drive() : encounter_.begin_anew();
+    begin_anew(runtime::Reset::drive);
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
   const reflex::Reflex reflex = planes_.step(scene, beliefs, at, finished());

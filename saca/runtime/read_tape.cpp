@@ -164,8 +164,10 @@ reflex::Threat read_threat(JsonReader from) {
 reflex::Switch read_switch(JsonReader from) {
   const reflex::Switch change{
       .plan = read_plan(from.object("plan")),
-      .reason = from.word("reason", named<reflex::SwitchReason, 4>,
-                          "needed after all, no longer needed, better by far or harder needed"),
+      .reason =
+          from.word("reason", named<reflex::SwitchReason, 5>,
+                    "needed after all, no longer needed, better by far, harder needed or cannot "
+                    "be judged"),
       .harm = from.number("harm"),
       .harm_before = from.number("harm_before")};
   from.refuse_others();

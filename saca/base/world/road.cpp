@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "saca/base/core/names.h"
 
@@ -60,13 +59,6 @@ Pose from_lane(const Road& road, const LanePose& pose) {
   const Vec2 centre{pose.s * sinc(turned), pose.s * cosc(turned)};
   const Pose X_LC{centre, turned};
   return road.X_WL * Pose{X_LC * Vec2{0.0, pose.d}, wrap_angle(turned + pose.heading)};
-}
-
-double way_along(const Road& road, double from_s, double to_s) {
-  const double way = to_s - from_s;
-  return road.curvature == 0.0
-             ? way
-             : std::remainder(way, 2.0 * std::numbers::pi / std::abs(road.curvature));
 }
 
 }  // namespace saca::world

@@ -57,8 +57,4 @@ struct LanePose {
 [[nodiscard]] LanePose to_lane(const Road& road, const Pose& X_WB);
 [[nodiscard]] Pose from_lane(const Road& road, const LanePose& pose);
 
-/// How far it is along the lane from one s to another, > 0 ahead: in a bend the shorter way round
-/// its circle, since s of to_lane begins anew half a turn from X_WL.
-[[nodiscard]] double way_along(const Road& road, double from_s, double to_s);
-
 }  // namespace saca::world

@@ -46,21 +46,6 @@ TEST(Road, LaneAndWorldAreInverse) {
   }
 }
 
-// A circle of 20 m radius: 57.6 m and 67.6 m along it lie at 165 and 194 degrees, on both sides of
-// where s begins anew.
-TEST(Road, TheWayAlongABendIsTheShorterOne) {
-  for (const double side : {1.0, -1.0}) {
-    Road road;
-    road.curvature = side / 20.0;
-    const double here = to_lane(road, from_lane(road, {57.6, 0.0, 0.0})).s;
-    const double ahead = to_lane(road, from_lane(road, {67.6, 0.0, 0.0})).s;
-    EXPECT_LT(ahead, here);
-    EXPECT_NEAR(way_along(road, here, ahead), 10.0, 1e-9);
-    EXPECT_NEAR(way_along(road, ahead, here), -10.0, 1e-9);
-  }
-  EXPECT_EQ(way_along({}, 3.0, -1e6), -1e6 - 3.0) << "a straight road has no other way";
-}
-
 TEST(Road, LeftAndRightAreMirrorImages) {
   Road left;
   left.curvature = 0.008;

@@ -272,7 +272,7 @@ bool is_behind(const Scene& scene, const Actor& actor) {
   const double rear =
       to_lane(scene.road, {support(scene.ego_footprint, scene.ego.X_WB, -forward), 0.0}).s;
   const double front = to_lane(scene.road, {support(actor.footprint, actor.X_WA, forward), 0.0}).s;
-  return way_along(scene.road, rear, front) < 0.0 && !is_crossing(scene, actor);
+  return front < rear && !is_crossing(scene, actor);
 }
 
 bool is_follower(const Scene& scene, const Actor& actor) {

@@ -294,21 +294,6 @@ TEST(TimeToConflict, WhoRollsBackMeetsNobodyAhead) {
   EXPECT_TRUE(time_to_conflict(scene, wall, 5.0, 0.0).has_value());
 }
 
-// On a circle of 20 m radius, X_WL where the ego came in: 165 degrees further on a car stands 10 m
-// ahead.
-TEST(IsBehind, LooksTheShorterWayRoundABend) {
-  Scene scene = ego_at(5.0, whole_metres);
-  scene.road.curvature = 0.05;
-  scene.ego.X_WB = from_lane(scene.road, {57.6, 0.0, 0.0});
-  Actor ahead = block(1, {});
-  ahead.X_WA = from_lane(scene.road, {67.6, 0.0, 0.0});
-  EXPECT_FALSE(is_behind(scene, ahead));
-  Actor behind = block(2, {});
-  behind.X_WA = from_lane(scene.road, {47.6, 0.0, 0.0});
-  EXPECT_TRUE(is_behind(scene, behind));
-  EXPECT_TRUE(time_to_conflict(scene, ahead, 5.0, 0.0).has_value());
-}
-
 // At rest, crawling and backwards there is no course to be measured.
 TEST(EgoGoingOn, IsInLaneWhereNoCourseIsMeasured) {
   for (const Vec2 v_B : {Vec2{0.0, 0.0}, Vec2{0.05, 0.0}, Vec2{-2.0, 0.0}}) {

@@ -125,7 +125,7 @@ bool Play::ask(Branch& branch) {
     for (const std::size_t method : branch.methods) {
       give_up(method, problem->message);
     }
-    problem_ = branch.untouched ? std::move(problem) : std::nullopt;
+    problem_ = branch.untouched && !branch.methods.empty() ? std::move(problem) : std::nullopt;
     return false;
   }
   if (loop.wake() && branch.untouched) {

@@ -18,17 +18,17 @@ struct MethodRun {
   std::optional<manoeuvre::Plan> plan;  ///< with what, as it was carried out; no intervention where
                                         ///< it decided on that and never on more; nullopt: it
                                         ///< decided on nothing
-  std::string source;                   ///< where its first decision came from, in a word
-  std::string reason;                   ///< why, in a sentence
-  int switches = 0;                     ///< how often it began another plan later
-  double harm = 0.0;                    ///< of all contacts
-  double collision_loss = 0.0;          ///< the paper's, of the first contact
-  std::optional<std::string> met;       ///< with whom or what the first contact was
-  double impact_speed = 0.0;            ///< relative, of that contact [m/s]
-  double ego_speed = 0.0;               ///< of the ego at that contact [m/s]
-  double peak_deceleration = 0.0;       ///< largest of the ego along its heading before that
-                                        ///< contact [m/s^2], >= 0
-  double clearance = 0.0;               ///< smallest distance to anybody [m]; 0 with contact
+  std::string source;  ///< where its first decision came from, doing nothing among them, in a word
+  std::string reason;  ///< why it decided so, in a sentence
+  int switches = 0;    ///< how often it began another plan later
+  double harm = 0.0;   ///< of all contacts
+  double collision_loss = 0.0;     ///< the paper's, of the first contact
+  std::optional<std::string> met;  ///< with whom or what the first contact was
+  double impact_speed = 0.0;       ///< relative, of that contact [m/s]
+  double ego_speed = 0.0;          ///< of the ego at that contact [m/s]
+  double peak_deceleration = 0.0;  ///< largest of the ego along its heading before that
+                                   ///< contact [m/s^2], >= 0
+  double clearance = 0.0;          ///< smallest distance to anybody [m]; 0 with contact
   std::optional<encounter::ThinkingFigures>
       thinking;       ///< what was thought in it; nullopt: the method does not think ahead
   std::string fault;  ///< what it threw; empty: nothing. It then did no more
@@ -66,7 +66,7 @@ struct Comparison {
 /// @param methods    made for this encounter; each is stepped at every instant of it
 /// @param hindsight  of this encounter
 /// @return  Error::Code::out_of_range when the encounter cannot be played: a scene of it breaks a
-///          rule before any method acts
+///          rule while some method has not acted
 [[nodiscard]] Result<Comparison> compare(
     const encounter::Stage& stage, const std::vector<std::unique_ptr<encounter::Method>>& methods,
     Hindsight& hindsight);

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <utility>
 
 #include "saca/base/core/clock.h"
-#include "saca/base/core/journal.h"
-#include "saca/base/core/parallel.h"
 #include "saca/lab/long_work/interrupt.h"
-#include "saca/lab/long_work/output_file.h"
+#include "saca/lab/long_work/resumable_work.h"
 #include "saca/lab/suites/method_list.h"
 #include "saca/lab/suites/thresholds_text.h"
 
@@ -84,66 +83,67 @@ std::string work_of(const Play& play, const SuiteRequest& request) {
       joined(play.how.methods));
 }
 
-/// What the journal holds, as far as it was asked for.
-std::optional<Error> take_up_rows(const Journal& journal, const std::string& path,
-                                  std::size_t count, SuiteRun& run) {
-  for (const std::string& line : journal.lines()) {
-    auto row = eval::suite_row_from(line, run.methods.size());
-    if (!row.has_value() || row.value().number != run.rows.size()) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: line {}: {}", path, run.rows.size() + 2,
-                               row.has_value() ? "another encounter's" : row.error().message)};
-    }
-    run.rows.push_back(std::move(row).value());
+/// The rows that were played now, by any thread.
+class PlayedNow {
+ public:
+  void add(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    began_ = rows_ == 0 ? clock_.now() : began_;
+    ++rows_;
+    last_ = std::max(last_, number);
   }
-  run.rows.resize(std::min(run.rows.size(), count));
-  return std::nullopt;
-}
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] std::uint64_t last() const { return last_; }
+  /// Since the first of them began [s].
+  [[nodiscard]] double seconds() const {
+    return rows_ == 0 ? 0.0 : to_seconds(clock_.now() - began_);
+  }
 
-/// Whether all rows are there.
-enum class Played { all, interrupted };
+ private:
+  SteadyClock clock_;
+  std::mutex mutex_;
+  int rows_ = 0;
+  std::uint64_t last_ = 0;
+  Clock::Time began_{0};
+};
 
-/// The next rows, at once.
-std::vector<SuiteRow> next_rows(Play& play, std::size_t first, std::size_t num, int threads) {
-  std::vector<SuiteRow> next(num);
-  in_parallel(num, threads, [&](std::size_t i) { next[i] = row_of(play, first + i); });
-  return next;
-}
-
-/// Plays the rows that are missing and puts each into the journal.
-/// @param path  of the journal, for messages
-Result<Played> play_rest(Play& play, const SuiteRequest& request, const Journal& journal,
-                         const std::string& path, long_work::ProgressLine& progress,
-                         SuiteRun& run) {
-  const auto count = static_cast<std::size_t>(play.bench.source.count);
-  const auto before = static_cast<int>(run.rows.size());
+long_work::ResumableWork<SuiteRow> work_on(Play& play, const SuiteRequest& request,
+                                           const SuiteCaller& caller, PlayedNow& now) {
   const SuiteThinking& thinking = *play.bench.thinking;
-  const std::size_t at_once =
-      static_cast<std::size_t>(request.threads) * (thinking.has_model() ? 1 : batch_per_thread);
-  while (run.rows.size() < count) {
-    if (long_work::interrupted()) {
-      return Played::interrupted;
-    }
-    const std::size_t first = run.rows.size();
-    std::vector<SuiteRow> next =
-        next_rows(play, first, std::min(at_once, count - first), request.threads);
-    if (thinking.has_model() && long_work::interrupted()) {  // questions may have been withdrawn
-      return Played::interrupted;
-    }
-    if (const auto failure = thinking.failure()) {
-      return Error{failure->code,
-                   fmt::format("{} (in encounters {} to {}; the same command goes on there)",
-                               failure->message, first, first + next.size() - 1)};
-    }
-    for (SuiteRow& row : next) {
-      if (!journal.add(eval::line_of(row))) {
-        return Error{Error::Code::unwritable, path + ": cannot be added to"};
-      }
-      run.rows.push_back(std::move(row));
-    }
-    progress.show(static_cast<int>(run.rows.size()), before, " encounters");
-  }
-  return Played::all;
+  const std::size_t per_thread = thinking.has_model() ? 1 : batch_per_thread;
+  return {
+      .journal = request.journal.empty() ? request.output + ".journal" : request.journal,
+      .title = fmt::format("saca {} {} of {}", caller.built_from, caller.command,
+                           work_of(play, request)),
+      .progress = caller.command,
+      .unit = "encounters",
+      .count = static_cast<std::size_t>(play.bench.source.count),
+      .display = caller.display,
+      .threads = request.threads,
+      .at_once = per_thread * static_cast<std::size_t>(request.threads),
+      .row =
+          [&](std::size_t number) {
+            now.add(number);
+            return row_of(play, number);
+          },
+      .line_of = [](const SuiteRow& row) { return eval::line_of(row); },
+      .row_from = [num_methods = play.how.methods.size(),
+                   number = std::uint64_t{0}](const std::string& line) mutable -> Result<SuiteRow> {
+        auto row = eval::suite_row_from(line, num_methods);
+        if (row.has_value() && row.value().number != number++) {
+          return Error{Error::Code::malformed, "another encounter's"};
+        }
+        return row;
+      },
+      .spoilt_by_interrupt = thinking.has_model(),  // questions may have been withdrawn
+      .failure = [&]() -> std::optional<Error> {
+        auto failure = thinking.failure();
+        if (failure) {
+          failure->message += fmt::format(
+              " (in encounter {} or shortly before; the same command goes on there)", now.last());
+        }
+        return failure;
+      }};
 }
 
 std::string command_of(const SuiteRequest& request, const std::vector<std::string>& methods,
@@ -190,17 +190,19 @@ Result<std::optional<SuiteRun>> play_suite(SuiteBench bench, const SuiteRequest&
                                            const SuiteCaller& caller) {
   const std::shared_ptr<Play> play = play_of(std::move(bench), request, methods);
   const EncounterSource& source = play->bench.source;
-  const std::string path = request.journal.empty() ? request.output + ".journal" : request.journal;
-  if (auto problem = long_work::make_folder_of(path)) {
-    return *problem;
+  PlayedNow now;
+  long_work::watch_for_interrupt();
+  auto rows = long_work::rows_of(work_on(*play, request, caller, now));
+  if (!rows.has_value()) {
+    return rows.error();
   }
-  const auto journal = Journal::open(path, fmt::format("saca {} {} of {}", caller.built_from,
-                                                       caller.command, work_of(*play, request)));
-  if (!journal.has_value()) {
-    return journal.error();
+  if (!rows.value()) {
+    return std::optional<SuiteRun>();
   }
   SuiteRun run{.methods = methods,
-               .rows = {},
+               .rows = *std::move(rows).value(),
+               .seconds = now.seconds(),
+               .worked = now.rows(),
                .meta = {},
                .notes = source.notes,
                .encounter_at = source.at,
@@ -208,24 +210,6 @@ Result<std::optional<SuiteRun>> play_suite(SuiteBench bench, const SuiteRequest&
   run.tried_in = [play](const SuiteEncounter& encounter) {
     return eval::tried_in(encounter, play->how, *play->bench.setup, *play->bench.intent);
   };
-  const auto count = static_cast<std::size_t>(source.count);
-  if (auto problem = take_up_rows(journal.value(), path, count, run)) {
-    return *problem;
-  }
-  const auto before = static_cast<int>(run.rows.size());
-  SteadyClock clock;
-  long_work::watch_for_interrupt();
-  long_work::ProgressLine progress(caller.command, source.count, clock, caller.display);
-  const Clock::Time start = clock.now();
-  const auto played = play_rest(*play, request, journal.value(), path, progress, run);
-  if (!played.has_value()) {
-    return played.error();
-  }
-  if (played.value() == Played::interrupted) {
-    return std::optional<SuiteRun>();
-  }
-  run.worked = source.count - before;
-  run.seconds = to_seconds(clock.now() - start);
   run.meta = meta_of(request, methods, caller, play->bench);
   return std::optional(std::move(run));
 }

@@ -45,7 +45,10 @@ std::string traffic_text(const WatchedTraffic& traffic) {
   text += reasons_text("Triggers", all.triggers);
   text += reasons_text("SACA acts", all.interventions);
   if (all.left_out > 0) {
-    text += fmt::format("{:6} drives could not be watched: the page tells why\n", all.left_out);
+    text += fmt::format(
+        "{:6} drives could not be watched, in {} of them SACA failed: the page tells "
+        "why\n",
+        all.left_out, all.failed);
   }
   return text;
 }

@@ -26,7 +26,9 @@ bool Encounter::look(const world::Scene& scene, const Reflex& answer) {
     execution_.reset();
   }
   meets_somebody_ = meets_somebody_ || answer.threat || execution_;
-  if (!meets_somebody_ || answer.threat || (execution_ && !finished_)) {
+  constexpr double moves = 0.1;  // [m/s]
+  const bool rests = finished_ && norm(scene.ego.v_B) < moves;
+  if (!meets_somebody_ || answer.threat || (execution_ && !rests)) {
     quiet_.reset();
     return false;
   }

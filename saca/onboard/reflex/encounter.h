@@ -32,8 +32,6 @@ class Encounter {
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
 
   void begin_anew() noexcept;
-  /// Perception's time has jumped: what is under way goes on to its safe end.
-  void begin_drive() noexcept { quiet_.reset(); }
 
   /// What `control` carries out; nullopt: the stack drives.
   [[nodiscard]] std::optional<manoeuvre::Plan> plan() const noexcept {

@@ -55,18 +55,16 @@ EgoState moved_on(EgoState ego, double dt) {
   return ego;
 }
 
-/// May the ego have come from one state to the other, `dt` seconds later by perception's clock?
-bool may_go_on(const EgoState& before, const EgoState& now, double dt) {
-  constexpr double longest = 10.0;   // [s]: an emergency is over by then
-  constexpr double leap = 0.2;       // [s], which a clock that is set anew may leave out
-  constexpr double hardest = 12.0;   // [m/s^2]
-  constexpr double place_off = 1.0;  // [m]
-  constexpr double speed_off = 1.0;  // [m/s]
-  const double since = std::max(0.0, dt) + leap;
-  return dt <= longest &&
-         norm(now.X_WB.p - before.X_WB.p) <=
-             place_off + since * std::max(norm(before.v_B), norm(now.v_B)) &&
-         norm(now.v_B - before.v_B) <= speed_off + hardest * since;
+/// The road, but from a point beside the ego on where that is far round a bend: s begins anew half
+/// a turn from X_WL, and who is ahead there would be behind.
+world::Road beside_ego(const Scene& scene) {
+  constexpr double far_round = 1.0;  // [rad]
+  world::Road road = scene.road;
+  const double s = world::to_lane(road, scene.ego.X_WB).s;
+  if (std::abs(road.curvature * s) > far_round) {
+    road.X_WL = world::from_lane(road, {s, 0.0, 0.0});
+  }
+  return road;
 }
 
 /// A scene without its road users, at time 0: whether perception's frame breaks a rule does not
@@ -84,14 +82,16 @@ IntakeResult Intake::take(const Scene& scene) noexcept {
   Scene frame = frame_of(scene);
   const bool has_time = std::abs(scene.time) <= latest;
   if (!has_time || world::broken_rule(frame)) {
-    return has_time ? carry_on(scene.time) : carry_on_to(delivered_);
+    const double time = has_time ? scene.time - began_ : delivered_;
+    const bool is_late = time < delivered_ && time >= delivered_ - longest_gap;
+    return carry_on_to(is_late ? delivered_ : time);
   }
+  frame.road = beside_ego(frame);
   IntakeResult taken{.usable = true};
   frame.time = scene.time - began_;
   taken.new_drive =
       !seen_at_ || std::abs(frame.time - delivered_) > longest_gap || frame.time > longest_drive;
   if (taken.new_drive) {
-    taken.goes_on = seen_at_ && may_go_on(scene_.ego, frame.ego, frame.time - scene_.time);
     began_ = scene.time;
     frame.time = 0.0;
   } else if (frame.time < delivered_ && frame.time <= *seen_at_) {
@@ -105,24 +105,30 @@ IntakeResult Intake::take(const Scene& scene) noexcept {
     }
     taken.degraded = taken.degraded || !can_be_used;
   }
-  if (!taken.new_drive) {
-    for (const Actor& known : before.actors) {  // of those who came and could not be used
-      const double dt = std::max(0.0, frame.time - before.time);
-      const Actor carried = moved_on(known, dt);
-      if (find(frame, known) == nullptr && find(scene, known) != nullptr &&
-          known.age + dt <= longest_carried && !world::broken_rule(carried) &&
-          !frame.actors.full()) {
-        frame.actors.push_back(carried);
-      }
-    }
-  }
   scene_ = frame;
   seen_at_ = frame.time;
-  if (!taken.new_drive && frame.time < delivered_) {
-    return carry_on_to(delivered_);  // time does not go back
+  if (!taken.new_drive && frame.time < delivered_) {  // time does not go back
+    taken = carry_on_to(delivered_);
   }
-  delivered_ = frame.time;
+  delivered_ = taken.new_drive ? frame.time : std::max(delivered_, frame.time);
+  if (!taken.new_drive && taken.usable) {
+    carry_on_unusable(before, scene);
+  }
   return taken;
+}
+
+void Intake::carry_on_unusable(const Scene& before, const Scene& came) noexcept {
+  const double dt = scene_.time - before.time;
+  for (const Actor& known : before.actors) {
+    const bool is_left_out = find(scene_, known) == nullptr && find(came, known) != nullptr;
+    if (!is_left_out || known.age + dt > longest_carried || scene_.actors.full()) {
+      continue;
+    }
+    const Actor carried = moved_on(known, dt);
+    if (!world::broken_rule(carried)) {
+      scene_.actors.push_back(carried);
+    }
+  }
 }
 
 IntakeResult Intake::carry_on(double now) noexcept {
@@ -140,13 +146,16 @@ IntakeResult Intake::carry_on_to(double time) noexcept {
 }
 
 bool Intake::move_on(double dt) noexcept {
+  if (!(dt > 0.0)) {
+    return true;
+  }
   Scene frame = frame_of(scene_);
   frame.ego = moved_on(scene_.ego, dt);
   if (world::broken_rule(frame)) {
     return false;
   }
   for (const Actor& actor : scene_.actors) {
-    const Actor carried = dt > 0.0 ? moved_on(actor, dt) : actor;
+    const Actor carried = moved_on(actor, dt);
     if (!world::broken_rule(carried)) {
       frame.actors.push_back(carried);
     }

@@ -11,8 +11,6 @@ struct IntakeResult {
   bool usable = false;     ///< `Intake::scene()` can be decided by
   bool degraded = false;   ///< somebody or everything in it is carried on instead of seen
   bool new_drive = false;  ///< the first scene, or time jumped: what was known says nothing
-  bool goes_on = false;    ///< of a new drive: the ego is where it may have come to since, so that
-                           ///< what is under way still fits
 };
 
 /// Makes of what perception delivers scenes that break no rule of world::broken_rule, whatever
@@ -27,6 +25,7 @@ struct IntakeResult {
 /// that
 ///   is newer, but older than what has been carried on to meanwhile, is carried on to there. Time
 ///   that jumps by more, ahead or back, begins a new drive.
+/// Far round a bend the road begins beside the ego, on the same arc: s has no end there then.
 /// Its scenes count time from the beginning of the drive, whatever clock perception has: with
 /// seconds since 1970 forecasts could not tell their shortest steps apart. Allocates nothing, never
 /// throws.
@@ -50,6 +49,8 @@ class Intake {
  private:
   /// Likewise, in time since the drive began.
   IntakeResult carry_on_to(double time) noexcept;
+  /// Carries on who was there before and came, but cannot be used.
+  void carry_on_unusable(const world::Scene& before, const world::Scene& came) noexcept;
   /// Carries the scene on by `dt` seconds.
   /// @return  false: the ego would break a rule, and nothing has changed
   bool move_on(double dt) noexcept;

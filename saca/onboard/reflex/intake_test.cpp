@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "saca/base/world/time_to_conflict.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
 
@@ -278,40 +279,52 @@ TEST(Intake, ScenesThatAreOlderThanWhatIsCarriedOnToAreTakenAllTheSame) {
   for (int k = 0; k < 200; ++k) {
     const double now = 0.01 * k;
     const bool comes = k % 5 == 3;
-    const IntakeResult taken = comes ? intake.take(road_at(now - 0.03)) : intake.carry_on(now);
+    Scene late = road_at(now - 0.03);
+    if (k >= 50 && k < 80) {
+      late.actors[1].mass = nan;  // of the second nothing can be used for 0.3 s
+    }
+    if (k == 103) {
+      late.grip = nan;
+    }
+    const IntakeResult taken = comes ? intake.take(late) : intake.carry_on(now);
     if (k >= 3) {
       ASSERT_TRUE(taken.usable) << k;
       EXPECT_GE(intake.scene().time, before) << k;
       EXPECT_NEAR(intake.scene().ego.X_WB.p.x, 20.0 * (intake.began() + intake.scene().time), 1e-6)
           << k;
-      EXPECT_LE(named(intake.scene(), 1).age, 0.081) << "seen 20 times a second";
+      EXPECT_NEAR(named(intake.scene(), 2).X_WA.p.x,
+                  50.0 + 15.0 * (intake.began() + intake.scene().time), 1e-6)
+          << k;
+      EXPECT_LE(named(intake.scene(), 1).age, k >= 103 && k < 108 ? 0.131 : 0.081) << k;
       before = intake.scene().time;
     }
   }
 }
 
-// Time jumps ahead by 2 s, or back; the ego goes on where it was, or is somewhere else.
-TEST(Intake, KnowsWhetherTheEgoMayHaveComeFromWhereItWas) {
-  struct Case {
-    double time;
-    double x;
-    double speed;
-    bool goes_on;
-  };
-  for (const Case& one :
-       {Case{12.0, 201.0, 20.0, true}, Case{12.0, 240.0, 20.0, true},
-        Case{12.0, 300.0, 20.0, false}, Case{8.0, 201.0, 20.0, true}, Case{8.0, 0.0, 20.0, false},
-        Case{8.0, 201.0, 0.0, false}, Case{60.0, 201.0, 20.0, false}}) {
+// On a circle of 20 m radius, X_WL where the ego came in: 165 degrees further on a car stands 10 m
+// ahead.
+TEST(Intake, FarRoundABendAheadIsAhead) {
+  for (const double side : {1.0, -1.0}) {
+    Scene scene = test::ego_at(5.0);
+    scene.road.curvature = side / 20.0;
+    scene.ego.X_WB = world::from_lane(scene.road, {57.6, 0.3, 0.1});
+    Actor ahead = test::car(1, {});
+    ahead.X_WA = world::from_lane(scene.road, {67.6, 0.0, 0.0});
+    Actor behind = test::car(2, {});
+    behind.X_WA = world::from_lane(scene.road, {47.6, 0.0, 0.0});
+    scene.actors.push_back(ahead);
+    scene.actors.push_back(behind);
+    ASSERT_TRUE(world::is_behind(scene, ahead)) << "s begins anew between them";
     Intake intake;
-    (void)intake.take(road_at(10.0));
-    Scene jumped = road_at(one.time);
-    jumped.ego.X_WB.p.x = one.x;
-    jumped.ego.v_B.x = one.speed;
-    const IntakeResult taken = intake.take(jumped);
-    EXPECT_TRUE(taken.new_drive);
-    EXPECT_EQ(taken.goes_on, one.goes_on) << one.time << ' ' << one.x << ' ' << one.speed;
+    ASSERT_TRUE(intake.take(scene).usable);
+    const Scene& seen = intake.scene();
+    EXPECT_FALSE(world::is_behind(seen, seen.actors[0]));
+    EXPECT_TRUE(world::is_behind(seen, seen.actors[1]));
+    const world::LanePose here = world::to_lane(seen.road, seen.ego.X_WB);
+    EXPECT_NEAR(here.s, 0.0, 1e-9);
+    EXPECT_NEAR(here.d, 0.3, 1e-9);
+    EXPECT_NEAR(here.heading, 0.1, 1e-9);
   }
-  EXPECT_FALSE(Intake().take(road_at(0.0)).goes_on) << "nothing was before the first";
 }
 
 TEST(Intake, AllocatesNothing) {

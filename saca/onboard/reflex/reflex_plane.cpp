@@ -20,6 +20,13 @@ bool is_fresh(const std::optional<Verdict>& verdict, const Scene& scene) {
   return verdict && verdict->time <= scene.time && scene.time - verdict->time <= verdict_expiry;
 }
 
+/// Does no verdict come? At real pace, of many road users, the next may be looked at 0.1 to 0.3 s
+/// after the scene of the one before.
+bool is_missing(const std::optional<Verdict>& verdict, const Scene& scene) {
+  constexpr double longest = 0.3;  // [s]
+  return !verdict || verdict->time > scene.time || scene.time - verdict->time > longest;
+}
+
 }  // namespace
 
 std::string_view name(Source source) {
@@ -150,7 +157,7 @@ bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcep
 
 std::optional<Switch> ReflexPlane::supervised(SupervisedScene now) noexcept {
   if (!is_fresh(verdict_, now.scene)) {
-    return supervised_by_atlas(now);
+    return is_missing(verdict_, now.scene) ? supervised_by_atlas(now) : std::nullopt;
   }
   if (verdict_->time <= now.under_way.begun) {
     return std::nullopt;  // it was decided by this one, or knows no more
@@ -160,21 +167,23 @@ std::optional<Switch> ReflexPlane::supervised(SupervisedScene now) noexcept {
 }
 
 std::optional<Switch> ReflexPlane::supervised_by_atlas(SupervisedScene now) noexcept {
-  const bool idle = is_idle(now);
-  const bool may_do_more = idle || (now.under_way.plan.policy == manoeuvre::PolicyId::aeb &&
-                                    now.under_way.plan != manoeuvre::full_braking);
-  if (!may_do_more || now.scene.time < judged_at_ + look_ahead - rounding ||
+  if (!may_do_more(now.under_way, now.finished) ||
+      now.scene.time < judged_at_ + look_ahead - rounding ||
       !supervisor_.is_due(now.scene, now.under_way, now.triggers, now.finished)) {
     return std::nullopt;
   }
   judged_at_ = now.scene.time;
   const auto verdict = tools_.atlas ? tools_.atlas->judge(now.scene) : std::nullopt;
-  if (!verdict) {
-    return idle ? std::optional(Switch{.plan = manoeuvre::full_braking}) : std::nullopt;
+  if (verdict) {
+    now.verdict = &*verdict;
+    now.by_atlas = true;
+    return supervisor_.look(now, tools_.car);
   }
-  now.verdict = &*verdict;
-  now.by_atlas = true;
-  return supervisor_.look(now, tools_.car);
+  if (!is_idle(now.under_way, now.finished)) {
+    return std::nullopt;
+  }
+  supervisor_.begin(now.scene);
+  return Switch{.plan = manoeuvre::full_braking, .reason = SwitchReason::cannot_be_judged};
 }
 
 Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {

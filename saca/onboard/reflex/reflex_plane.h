@@ -89,8 +89,8 @@ struct ReflexTools {
 /// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
 /// what the verdict speaks for (plan_of). Where the newest verdict is older than verdict_expiry,
 /// the atlas gives one; where it cannot, emergency braking. What cannot be driven from here gives
-/// way to emergency braking. From then on the verdicts are watched (Supervisor); where the newest
-/// is too old, the atlas's, which may only begin what is needed after all, or brake harder, and
+/// way to emergency braking. From then on the verdicts are watched (Supervisor); where none has
+/// come for 0.3 s, the atlas's, which may only begin what is needed after all, or brake harder, and
 /// where the atlas has none, emergency braking is what is needed. Guard::none: Algorithm 1 of the
 /// paper, and its plan is kept.
 class ReflexPlane {

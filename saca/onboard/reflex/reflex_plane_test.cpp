@@ -503,10 +503,14 @@ TEST(ReflexPlane, WhereNoVerdictComesAndNoAtlasKnowsItBrakesInFull) {
     Scene later = wreck_in(1.18);
     later.time = 0.1;
     EXPECT_FALSE(plane.step(later).switched) << "the verdict is not too old yet";
-    later = wreck_in(1.08);
-    later.time = 0.2;
+    later = wreck_in(1.0);
+    later.time = 0.28;
+    EXPECT_FALSE(plane.step(later).switched) << "the next may still come";
+    later = wreck_in(0.96);
+    later.time = 0.32;
     const Reflex reflex = plane.step(later);
     ASSERT_TRUE(reflex.switched.has_value());
+    EXPECT_EQ(reflex.switched->reason, SwitchReason::cannot_be_judged);
     EXPECT_EQ(reflex.plan, manoeuvre::full_braking);
   }
 }
@@ -517,24 +521,11 @@ TEST(ReflexPlane, WhereNoVerdictComesTheAtlasBrakesHarder) {
   plane.receive(braking_verdict(0.0, 0.2, 0.2, 0.2, 0.0));
   ASSERT_EQ(plane.step(slow_wreck_in(1.28)).plan, braking_at(0.3));
   Scene later = slow_wreck_in(0.96);
-  later.time = 0.3;
+  later.time = 0.32;
   const Reflex reflex = plane.step(later);
   ASSERT_TRUE(reflex.switched.has_value());
   EXPECT_EQ(reflex.switched->reason, SwitchReason::harder_needed);
   EXPECT_GT(strength_of(reflex.plan), 0.3);
-}
-
-// Full braking will hit, a swerve will not; but the atlas knows one motion of each, and what was
-// begun by a better judge is not given up for that.
-TEST(ReflexPlane, WhereNoVerdictComesNothingIsGivenUp) {
-  ReflexPlane plane(with_atlas());
-  plane.receive(verdict_of(0.0, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.5}}));
-  ASSERT_EQ(plane.step(slow_wreck_in(1.28)).plan, manoeuvre::full_braking);
-  for (int k = 1; k <= 5; ++k) {
-    Scene close = slow_wreck_in(0.6);
-    close.time = 0.2 * k;
-    EXPECT_FALSE(plane.step(close).switched);
-  }
 }
 
 TEST(ReflexPlane, TakesTheMostSimilarOfSeveral) {

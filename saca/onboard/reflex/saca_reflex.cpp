@@ -283,8 +283,7 @@ saca_status saca_reflex::answer(const IntakeResult& taken, saca_answer& told) {
   if (taken.usable) {
     const saca::world::Scene& scene = intake.scene();
     if (taken.new_drive) {
-      plane.begin_anew();
-      taken.goes_on ? encounter.begin_drive() : encounter.begin_anew();
+      begin_anew();
     }
     const saca::reflex::Reflex reflex = plane.step(scene, encounter.finished());
     const bool is_over = encounter.look(scene, reflex);

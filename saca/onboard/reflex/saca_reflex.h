@@ -79,7 +79,8 @@ typedef struct {
 } saca_vector;
 
 /* A road user or obstacle as perceived. Left out is whose numbers are none, or beyond what is on a
- * road: 1e7 m from the origin, 200 m/s, 1,000 m/s^2, 100 rad/s, 1 mm to 1 km, 1 g to 10,000 t. */
+ * road: 1e7 m from the origin, a yaw of 1e4 rad, 200 m/s, 1,000 m/s^2, 100 rad/s, 1 mm to 1 km, 1 g
+ * to 10,000 t. */
 typedef struct {
   int32_t kind;         /* SACA_CAR ... SACA_OBSTACLE */
   int32_t id;           /* 1 to 255, unique within its kind, the same from scene to scene */
@@ -115,9 +116,8 @@ typedef struct {
 /* All that is known of one instant. */
 typedef struct {
   uint64_t size;
-  double time; /* since any instant, 1970 for one; a jump of more than 1 s begins a new drive: what
-                  was known of others is forgotten, and what is under way goes on where the ego may
-                  have come from where it was [s] */
+  double time; /* since any instant, 1970 for one; a jump of more than 1 s begins a new drive:
+                  what was known is forgotten, and what is under way dropped [s] */
   saca_pose X_WB;
   saca_vector v_B; /* over ground [m/s] */
   saca_vector a_B; /* [m/s^2] */

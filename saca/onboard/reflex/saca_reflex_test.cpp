@@ -436,23 +436,6 @@ TEST_F(InC, CarriesOnForHalfASecondWhateverComes) {
   EXPECT_EQ(answer.plan.policy, SACA_NO_INTERVENTION);
 }
 
-// Nobody is in the way any more, so that nothing triggers anew.
-TEST_F(InC, GoesOnWhereTimeJumpsAndTheEgoDoesNot) {
-  for (const bool elsewhere : {false, true}) {
-    const auto opened = open();
-    auto scene = wreck_ahead(15.0, 0.0);
-    auto answer = begun(saca_answer_init);
-    EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
-    ASSERT_EQ(answer.begins, 1);
-    scene.time = 2.0;
-    scene.num_actors = 0;
-    scene.X_WB.x = elsewhere ? 500.0 : 1.0;
-    EXPECT_EQ(saca_reflex_step(opened.reflex.get(), &scene, &answer), SACA_OK);
-    EXPECT_EQ(answer.triggered, 0);
-    EXPECT_EQ(answer.carries_out, elsewhere ? 0 : 1);
-  }
-}
-
 TEST_F(InC, AModelRefusesWhatNoCarIsTold) {
   const auto opened = open();
   auto scene = wreck_ahead(20.0, 0.0);

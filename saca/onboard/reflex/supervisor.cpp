@@ -15,8 +15,8 @@ using manoeuvre::Plan;
 using manoeuvre::PolicyId;
 using world::Scene;
 
-constexpr std::array<std::string_view, 4> reason_names{"needed after all", "no longer needed",
-                                                       "better by far", "harder needed"};
+constexpr std::array<std::string_view, 5> reason_names{
+    "needed after all", "no longer needed", "better by far", "harder needed", "cannot be judged"};
 constexpr double rest_speed = 0.5;  // [m/s]
 
 double harm_of_going_on(const SupervisedScene& now) {
@@ -36,17 +36,21 @@ bool is_another(const Plan& plan, const Plan& under_way) {
          (plan.policy == PolicyId::aeb && strength_of(plan) < strength_of(under_way));
 }
 
+double harm_of(const Verdict& verdict, const Plan& plan) {
+  const JudgedPlan* const judged = find_plan(verdict, plan);
+  return judged == nullptr ? 0.0 : judged->harm;
+}
+
 /// What the verdict speaks for, where nothing is under way and the trigger's rule fires.
 std::optional<Switch> needed_after_all(const SupervisedScene& now) {
   const Plan wanted = plan_of(*now.verdict);
   if (wanted.policy == PolicyId::no_intervention || !now.triggers) {
     return std::nullopt;
   }
-  const JudgedPlan* const judged = find_plan(*now.verdict, wanted);
   return Switch{.plan = wanted,
                 .reason = SwitchReason::needed_after_all,
-                .harm = judged == nullptr ? 0.0 : judged->harm,
-                .harm_before = harm_of_going_on(now)};
+                .harm = harm_of(*now.verdict, wanted),
+                .harm_before = harm_of(*now.verdict, manoeuvre::doing_nothing)};
 }
 
 /// Harder braking, where that is expected to harm less than going on.
@@ -69,8 +73,12 @@ std::string_view name(SwitchReason reason) {
   return name_of(reason, reason_names);
 }
 
-bool is_idle(const SupervisedScene& now) noexcept {
-  return now.under_way.plan.policy == PolicyId::no_intervention || now.finished;
+bool is_idle(const UnderWay& under_way, bool finished) noexcept {
+  return under_way.plan.policy == PolicyId::no_intervention || finished;
+}
+
+bool may_do_more(const UnderWay& under_way, bool finished) noexcept {
+  return is_idle(under_way, finished) || is_harder(manoeuvre::full_braking, under_way.plan);
 }
 
 const JudgedPlan* going_on(const Verdict& verdict, const Plan& under_way) noexcept {
@@ -86,8 +94,7 @@ bool Supervisor::is_due(const Scene& scene, const UnderWay& under_way, bool trig
   if (norm(scene.ego.v_B) < rest_speed || scene.time < looked_at_ + period - rounding) {
     return false;
   }
-  const bool idle = under_way.plan.policy == PolicyId::no_intervention || finished;
-  return !idle || triggers;
+  return !is_idle(under_way, finished) || triggers;
 }
 
 void Supervisor::begin(const Scene& scene) noexcept {
@@ -145,7 +152,7 @@ std::optional<Switch> Supervisor::look(const SupervisedScene& now,
   if (!is_clear) {
     clear_since_.reset();
   }
-  if (is_idle(now)) {
+  if (is_idle(now.under_way, now.finished)) {
     change = needed_after_all(now);
   } else if (now.by_atlas) {
     change = harder(now);

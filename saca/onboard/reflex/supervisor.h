@@ -20,6 +20,7 @@ enum class SwitchReason : std::uint8_t {
   no_longer_needed,  ///< nobody is in the way under any hypothesis: the wheel is given back
   better_by_far,     ///< from the present state, the other is materially better
   harder_needed,     ///< braking goes on, but harder: that is expected to harm less
+  cannot_be_judged,  ///< nothing was done, a conflict is near, and nobody can say what is best
 };
 [[nodiscard]] std::string_view name(SwitchReason reason);
 
@@ -32,8 +33,9 @@ enum class SwitchReason : std::uint8_t {
 struct Switch {
   manoeuvre::Plan plan;
   SwitchReason reason = SwitchReason::needed_after_all;
-  double harm = 0.0;         ///< expected of it
-  double harm_before = 0.0;  ///< of going on
+  double harm = 0.0;  ///< expected of it; 0 where nobody can say
+  double harm_before =
+      0.0;  ///< of going on, or of doing nothing where nothing is under way; likewise
 };
 
 /// What the supervisor looks at. Refers to what it is given.
@@ -49,7 +51,9 @@ struct SupervisedScene {
 };
 
 /// Whether nothing is under way any more: nothing was done, or the plan has reached its safe end.
-[[nodiscard]] bool is_idle(const SupervisedScene& now) noexcept;
+[[nodiscard]] bool is_idle(const UnderWay& under_way, bool finished) noexcept;
+/// Whether a verdict of the atlas may change anything: only to more than is done now.
+[[nodiscard]] bool may_do_more(const UnderWay& under_way, bool finished) noexcept;
 
 /// Watches a plan from the trigger on, verdict by verdict. It may
 /// * begin what a verdict speaks for where nothing was done, or a swerve has come to its end,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "saca/lab/prepare/shipped_cars_for_test.h"
 #include "saca/onboard/reflex/verdict_for_test.h"
 #include "tests/support/scenes.h"
@@ -20,11 +22,12 @@ class Watched {
     supervisor_.begin(scene_);
   }
 
-  std::optional<Switch> look(const Verdict& verdict, bool threatened = true,
-                             bool finished = false) {
+  std::optional<Switch> look(const Verdict& verdict, bool threatened = true, bool finished = false,
+                             bool by_atlas = false) {
     scene_.time = verdict.time;
     return supervisor_.look({.scene = scene_,
                              .verdict = &verdict,
+                             .by_atlas = by_atlas,
                              .under_way = under_way_,
                              .threatened = threatened,
                              .triggers = threatened,
@@ -256,6 +259,47 @@ TEST(Supervisor, GivesTheWheelBackFromGentleBrakingToo) {
   const auto change = watched.look(peace(1.5), false);
   ASSERT_TRUE(change.has_value());
   EXPECT_EQ(change->reason, SwitchReason::no_longer_needed);
+}
+
+// The atlas knows one motion of each road user: by its word nothing that was begun is given up.
+TEST(Supervisor, ByTheAtlasOnlyDoesMore) {
+  const auto peace = [](double time) {
+    return verdict_of(time, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.0}});
+  };
+  const auto swerve = [](double time) {
+    return verdict_of(
+        time, {{PolicyId::aeb, 0.3}, {PolicyId::aes_left, 0.0}, {PolicyId::no_intervention, 0.5}});
+  };
+  for (const auto& verdict : {std::function<Verdict(double)>(peace), {swerve}}) {
+    Watched watched(PolicyId::aeb);
+    watched.carries_out(braking_at(0.3));
+    Watched trusting(PolicyId::aeb);
+    trusting.carries_out(braking_at(0.3));
+    bool switched = false;
+    for (int k = 0; k < 10; ++k) {
+      const double time = 1.0 + 0.1 * k;
+      EXPECT_EQ(watched.look(verdict(time), false, false, true), std::nullopt) << time;
+      switched = switched || trusting.look(verdict(time), false);
+    }
+    EXPECT_TRUE(switched) << "by the forecaster's it would be";
+  }
+  Watched harder(PolicyId::aeb);
+  harder.carries_out(braking_at(0.3));
+  const auto change = harder.look(braking_verdict(1.0, 0.0, 0.1, 0.2, 0.3), true, false, true);
+  ASSERT_TRUE(change.has_value());
+  EXPECT_EQ(change->reason, SwitchReason::harder_needed);
+}
+
+TEST(Supervisor, AfterTheAtlasTheForecasterIsLookedAtAtOnce) {
+  Watched watched(PolicyId::no_intervention);
+  const auto nothing = [](double time) {
+    return verdict_of(time, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.0}});
+  };
+  EXPECT_EQ(watched.look(nothing(1.0), true, false, true), std::nullopt);
+  const auto change = watched.look(
+      verdict_of(1.01, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.5}}), true);
+  ASSERT_TRUE(change.has_value());
+  EXPECT_EQ(change->harm_before, 0.5);
 }
 
 TEST(Supervisor, BeginsNothingThatCannotBeDriven) {

@@ -170,6 +170,8 @@ std::string switch_text(const reflex::Switch& change) {
     case reflex::SwitchReason::needed_after_all:
       return fmt::format("doing nothing is expected to harm {:.4f} now: {}, {:.4f}",
                          change.harm_before, plan_text(change.plan), change.harm);
+    case reflex::SwitchReason::cannot_be_judged:
+      return "neither forecaster nor atlas can say what is best: " + plan_text(change.plan);
     case reflex::SwitchReason::no_longer_needed:
       return "nobody is in the way any more: lane and speed are kept";
     case reflex::SwitchReason::harder_needed:
