@@ -39,11 +39,18 @@ ShadowRow row_of(const std::string& source, double seconds, double metres) {
 TEST(ShadowRows, ALineComesBack) {
   for (const ShadowRow& row :
        {row_of("us101", 6.5, 70.0),
-        ShadowRow{.source = "100car", .drive = "8300", .left_out = "no lane", .watched = {}}}) {
+        ShadowRow{.source = "100car", .drive = "8300", .left_out = "no lane", .watched = {}},
+        ShadowRow{.source = "100car",
+        .drive = "9",
+        .left_out = "it threw",
+        .failed = true,
+        .watched = {}}}) {
     const auto back = shadow_row_from(line_of(row));
     ASSERT_TRUE(back.has_value()) << back.error().message;
     EXPECT_EQ(line_of(back.value()), line_of(row));
     EXPECT_EQ(back.value().left_out, row.left_out);
+    EXPECT_EQ(back.value().failed, row.failed);
+    EXPECT_EQ(shadow_figures({&row, 1}, "").failed, row.failed ? 1 : 0);
     EXPECT_EQ(back.value().watched.seconds, row.watched.seconds);
     EXPECT_EQ(back.value().watched.triggers.size(), row.watched.triggers.size());
     EXPECT_EQ(back.value().watched.interventions.size(), row.watched.interventions.size());

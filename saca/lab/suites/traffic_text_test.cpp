@@ -20,7 +20,10 @@ TEST(TrafficText, HasALineForEachSourceAndForAll) {
   EXPECT_THAT(text, HasSubstr("\nall               2    1.000     50.00 "));
   EXPECT_THAT(text, HasSubstr("\n1 of the times that SACA acts come before T1.\n\nTriggers:\n"));
   EXPECT_THAT(text, HasSubstr("     1 danger the driver braked"));
-  EXPECT_THAT(text, HasSubstr("\n     1 drives could not be watched: the page tells why\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "\n     1 drives could not be watched, in 0 of them SACA failed: the page tells why\n"));
 }
 
 TEST(TrafficText, SaysNothingOfDrivesLeftOutWhereThereIsNone) {
