@@ -94,6 +94,8 @@ void add_model(CLI::App& line) {
       "interrupted",
       score_model);
   add_survey_options(score, options.survey);
+  score.get_option("--journal")
+      ->description("What was found so far (default: runs/model-score-SUITE-SPLIT.journal)");
   score.get_option("--count")->check(CLI::Range(2, 10'000'000));
   add(score, "--llm", options.model, "As of `saca reason`");
   add_json(score, options.as_json);

@@ -1,8 +1,8 @@
 #include "apps/saca/options.h"
 
-#include <algorithm>
-
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "saca/base/core/suggestion.h"
 #include "saca/lab/eval/decision_point.h"

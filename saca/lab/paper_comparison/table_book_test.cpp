@@ -39,6 +39,7 @@ TEST(TableBook, TheTextEndsWithWhatWasPublished) {
   const std::string text = text_of(book);
   EXPECT_THAT(text, StartsWith("Table III: one-way road\n"));
   EXPECT_THAT(text, HasSubstr("\n\nPublished: arXiv"));
+  EXPECT_EQ(text.back(), '\n');
   EXPECT_THAT(text,
               HasSubstr("Table III: one-way road: 1 of 12 encounters are left out; the first: "
                         "encounter 3 aeb failed: it threw\n"));

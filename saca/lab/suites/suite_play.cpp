@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 #include <utility>
 
 #include "saca/base/core/clock.h"
@@ -83,67 +82,53 @@ std::string work_of(const Play& play, const SuiteRequest& request) {
       joined(play.how.methods));
 }
 
-/// The rows that were played now, by any thread.
-class PlayedNow {
- public:
-  void add(std::uint64_t number) {
-    const std::lock_guard lock(mutex_);
-    began_ = rows_ == 0 ? clock_.now() : began_;
-    ++rows_;
-    last_ = std::max(last_, number);
-  }
-  [[nodiscard]] int rows() const { return rows_; }
-  [[nodiscard]] std::uint64_t last() const { return last_; }
-  /// Since the first of them began [s].
-  [[nodiscard]] double seconds() const {
-    return rows_ == 0 ? 0.0 : to_seconds(clock_.now() - began_);
-  }
-
- private:
-  SteadyClock clock_;
-  std::mutex mutex_;
-  int rows_ = 0;
-  std::uint64_t last_ = 0;
-  Clock::Time began_{0};
+/// What stood in the journal.
+struct TakenUp {
+  std::size_t rows = 0;
+  Clock::Time at{0};  ///< when the last of them was read, or the first row was begun
 };
 
 long_work::ResumableWork<SuiteRow> work_on(Play& play, const SuiteRequest& request,
-                                           const SuiteCaller& caller, PlayedNow& now) {
+                                           const SuiteCaller& caller, Clock& clock,
+                                           TakenUp& taken) {
   const SuiteThinking& thinking = *play.bench.thinking;
-  const std::size_t per_thread = thinking.has_model() ? 1 : batch_per_thread;
-  return {
-      .journal = request.journal.empty() ? request.output + ".journal" : request.journal,
-      .title = fmt::format("saca {} {} of {}", caller.built_from, caller.command,
-                           work_of(play, request)),
-      .progress = caller.command,
-      .unit = "encounters",
-      .count = static_cast<std::size_t>(play.bench.source.count),
-      .display = caller.display,
-      .threads = request.threads,
-      .at_once = per_thread * static_cast<std::size_t>(request.threads),
-      .row =
-          [&](std::size_t number) {
-            now.add(number);
-            return row_of(play, number);
+  const std::size_t at_once =
+      static_cast<std::size_t>(request.threads) * (thinking.has_model() ? 1 : batch_per_thread);
+  return {.journal = request.journal.empty() ? request.output + ".journal" : request.journal,
+          .title = fmt::format("saca {} {} of {}", caller.built_from, caller.command,
+                               work_of(play, request)),
+          .progress = caller.command,
+          .unit = "encounters",
+          .count = static_cast<std::size_t>(play.bench.source.count),
+          .display = caller.display,
+          .threads = request.threads,
+          .at_once = at_once,
+          .row = [&play](std::size_t number) { return row_of(play, number); },
+          .line_of = [](const SuiteRow& row) { return eval::line_of(row); },
+          .row_from = [&clock, &taken, num_methods = play.how.methods.size()](
+                          const std::string& line) -> Result<SuiteRow> {
+            auto row = eval::suite_row_from(line, num_methods);
+            if (row.has_value() && row.value().number != taken.rows) {
+              return Error{Error::Code::malformed, "another encounter's"};
+            }
+            ++taken.rows;
+            taken.at = clock.now();
+            return row;
           },
-      .line_of = [](const SuiteRow& row) { return eval::line_of(row); },
-      .row_from = [num_methods = play.how.methods.size(),
-                   number = std::uint64_t{0}](const std::string& line) mutable -> Result<SuiteRow> {
-        auto row = eval::suite_row_from(line, num_methods);
-        if (row.has_value() && row.value().number != number++) {
-          return Error{Error::Code::malformed, "another encounter's"};
-        }
-        return row;
-      },
-      .spoilt_by_interrupt = thinking.has_model(),  // questions may have been withdrawn
-      .failure = [&]() -> std::optional<Error> {
-        auto failure = thinking.failure();
-        if (failure) {
-          failure->message += fmt::format(
-              " (in encounter {} or shortly before; the same command goes on there)", now.last());
-        }
-        return failure;
-      }};
+          .spoilt_by_interrupt = thinking.has_model(),  // questions may have been withdrawn
+          .failure = [&thinking, &taken, at_once,
+                      count = static_cast<std::size_t>(play.bench.source.count),
+                      played = std::size_t{0}]() mutable -> std::optional<Error> {
+            const std::size_t first = taken.rows + played;
+            auto failure = thinking.failure();
+            if (failure) {
+              failure->message +=
+                  fmt::format(" (in encounters {} to {}; the same command goes on there)", first,
+                              std::min(first + at_once, count) - 1);
+            }
+            played += at_once;
+            return failure;
+          }};
 }
 
 std::string command_of(const SuiteRequest& request, const std::vector<std::string>& methods,
@@ -190,9 +175,10 @@ Result<std::optional<SuiteRun>> play_suite(SuiteBench bench, const SuiteRequest&
                                            const SuiteCaller& caller) {
   const std::shared_ptr<Play> play = play_of(std::move(bench), request, methods);
   const EncounterSource& source = play->bench.source;
-  PlayedNow now;
   long_work::watch_for_interrupt();
-  auto rows = long_work::rows_of(work_on(*play, request, caller, now));
+  SteadyClock clock;
+  TakenUp taken{.at = clock.now()};
+  auto rows = long_work::rows_of(work_on(*play, request, caller, clock, taken));
   if (!rows.has_value()) {
     return rows.error();
   }
@@ -201,8 +187,8 @@ Result<std::optional<SuiteRun>> play_suite(SuiteBench bench, const SuiteRequest&
   }
   SuiteRun run{.methods = methods,
                .rows = *std::move(rows).value(),
-               .seconds = now.seconds(),
-               .worked = now.rows(),
+               .seconds = to_seconds(clock.now() - taken.at),
+               .worked = source.count - static_cast<int>(taken.rows),
                .meta = {},
                .notes = source.notes,
                .encounter_at = source.at,

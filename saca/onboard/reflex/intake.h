@@ -22,9 +22,8 @@ struct IntakeResult {
 /// * Where the ego, the road or the grip break a rule, or no scene came at all, everything is
 ///   carried on for as long, the ego as it moves now: braking and turning.
 /// * A scene that comes late, older than the newest by at most `longest_gap`, is left aside; one
-/// that
-///   is newer, but older than what has been carried on to meanwhile, is carried on to there. Time
-///   that jumps by more, ahead or back, begins a new drive.
+///   that is newer, but older than what has been carried on to meanwhile, is carried on to there.
+///   Time that jumps by more, ahead or back, begins a new drive.
 /// Far round a bend the road begins beside the ego, on the same arc: s has no end there then.
 /// Its scenes count time from the beginning of the drive, whatever clock perception has: with
 /// seconds since 1970 forecasts could not tell their shortest steps apart. Allocates nothing, never
