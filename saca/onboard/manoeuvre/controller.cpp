@@ -116,12 +116,15 @@ VehicleState with_rolling_wheels(const Car& car, VehicleState state) {
 
 }  // namespace
 
+double share_of_bend(const world::Scene& scene) noexcept {
+  const double speed = scene.ego.v_B.x;
+  return std::abs(scene.road.curvature) * speed * speed / (scene.grip * gravity);
+}
+
 double share_of_swerve(const Car& car, const Plan& plan, const world::Scene& scene) noexcept {
   const SwerveLaw& swerve = car.tuning.swerve;
-  const double speed = scene.ego.v_B.x;
-  const double bend = std::abs(scene.road.curvature) * speed * speed / (scene.grip * gravity);
   return (brakes_to_speed(plan.policy) ? swerve.braked_share : swerve.share) -
-         swerve.fast_less * std::max(0.0, speed - fast) - bend;
+         swerve.fast_less * std::max(0.0, scene.ego.v_B.x - fast) - share_of_bend(scene);
 }
 
 ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scene) {

@@ -49,6 +49,9 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
                                        const vehicle::VehicleState& state, ControllerState& memory,
                                        double dt) noexcept;
 
+/// How much of the grip the bend itself takes at this speed [-].
+[[nodiscard]] double share_of_bend(const world::Scene& scene) noexcept;
+
 /// How much of the grip a lane change may take that begins here: less where it is fast, or a bend
 /// takes some [-]. Where little is left, it is refused (why_refused).
 [[nodiscard]] double share_of_swerve(const Car& car, const Plan& plan,

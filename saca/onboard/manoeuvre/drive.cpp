@@ -49,10 +49,6 @@ SpeedRange speeds_of(const Car& car, const Plan& plan, double grip) {
 double most_share_of_bend(const Plan& plan) {
   return drifts(plan.policy) ? 0.3 : 0.5;
 }
-double share_of_bend(const world::Scene& scene) {
-  return std::abs(scene.road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
-         (scene.grip * vehicle::gravity);
-}
 
 constexpr double least_share_of_swerve = 0.05;
 bool leaves_grip_to_swerve(const Car& car, const Plan& plan, const world::Scene& scene) {
