@@ -1,6 +1,5 @@
 #include "saca/lab/suites/ladder.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -84,10 +83,6 @@ std::vector<RungFigures> climb(const SuiteRun& run, const std::vector<Rung>& run
     }
   }
   return climbed;
-}
-
-bool has_faults(const SuiteRun& run) {
-  return !std::all_of(run.rows.begin(), run.rows.end(), eval::counts_in_figures);
 }
 
 }  // namespace saca::suites

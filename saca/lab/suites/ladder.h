@@ -40,7 +40,4 @@ struct RungFigures {
 [[nodiscard]] std::vector<RungFigures> climb(const SuiteRun& run, const std::vector<Rung>& rungs,
                                              std::uint64_t seed);
 
-/// Whether an encounter could not be played, or a method failed in one.
-[[nodiscard]] bool has_faults(const SuiteRun& run);
-
 }  // namespace saca::suites

@@ -57,13 +57,5 @@ TEST(Climb, WithoutARowThereIsNoRung) {
           .empty());
 }
 
-TEST(Faults, AreOfEncountersAndOfMethods) {
-  SuiteRun run = made_run({"aeb"}, {made_row(0, "a", {0.0}, 0.0)});
-  EXPECT_FALSE(has_faults(run));
-  run.rows[0].risk.runs[0].fault = "threw";
-  EXPECT_TRUE(has_faults(run));
-  EXPECT_TRUE(has_faults(made_run({"aeb"}, {failed_row(0, "a", "no road")})));
-}
-
 }  // namespace
 }  // namespace saca::suites::ladder_test

@@ -54,8 +54,15 @@ TEST(SuiteResult, WhereAMethodFailedNobodyIsCounted) {
   EXPECT_EQ(result_of(run, 1).method_faults, 4);
 }
 
+TEST(Failures, AreToldOnlyWhereThereAreAny) {
+  EXPECT_EQ(failures_text(made_run({"aeb"}, {made_row(0, "a", {0.0}, 0.0)})), "");
+}
+
 TEST(SuiteResult, AFamilyOfWhichNothingCouldBePlayedHasNoFigures) {
-  const SuiteResult result = result_of(made_run({"aeb"}, {failed_row(0, "a", "no road")}), 1);
+  const SuiteRun run = made_run({"aeb"}, {failed_row(0, "a", "no road")});
+  EXPECT_EQ(failures_text(run),
+            "1 of 1 encounters are left out; the first: encounter 0 could not be played: no road");
+  const SuiteResult result = result_of(run, 1);
   EXPECT_TRUE(result.all.empty());
   EXPECT_TRUE(result.families.at("a").empty());
   EXPECT_EQ(result.faults, 1);
