@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace saca::eval {
 namespace {
@@ -88,7 +89,8 @@ FuzzySurrogates fuzzy_surrogates(double gap, double speed, double ahead, double 
 }
 
 std::optional<Action> FuzzySafety::step(const encounter::View& view) {
-  constexpr double reaction = 0.75;    // [s]
+  constexpr double reaction = 0.75;  // [s]
+  const auto looks_to_react = std::lround(reaction / encounter::ClosedLoop::step);
   constexpr double comfortable = 4.0;  // [m/s^2]
   constexpr double hardest = 6.0;      // [m/s^2]
   constexpr double jerk = 12.65;       // [m/s^3]
@@ -112,22 +114,20 @@ std::optional<Action> FuzzySafety::step(const encounter::View& view) {
     worst.proactive = std::max(worst.proactive, here.proactive);
     worst.critical = std::max(worst.critical, here.critical);
   }
-  const double time = view.scene.time;
   if (worst.proactive + worst.critical <= 0.0) {
-    seen_.reset();
-    const bool braked = asked_ > 0.0;
-    asked_ = 0.0;
-    return braked ? std::optional(Action{.plan = {PolicyId::no_intervention, std::nullopt}})
-                  : std::nullopt;
+    return std::exchange(brakes_, false)
+               ? std::optional(Action{.plan = {PolicyId::no_intervention, std::nullopt}})
+               : std::nullopt;
   }
-  seen_ = seen_.value_or(time);
-  if (time < *seen_ + reaction && asked_ <= 0.0) {
+  if (looks_ < looks_to_react) {
+    ++looks_;
     return std::nullopt;
   }
   const double wanted = worst.critical > 0.0
                             ? comfortable + worst.critical * (hardest - comfortable)
                             : worst.proactive * comfortable;
   asked_ = std::max(least_braking, std::min(asked_ + jerk * encounter::ClosedLoop::step, wanted));
+  brakes_ = true;
   return braking(asked_);
 }
 

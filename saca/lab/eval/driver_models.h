@@ -45,7 +45,8 @@ class R157Braking final : public encounter::Method {
 };
 
 /// The competent and careful driver of annex 3: sees the risk at a time to collision of 2 s, takes
-/// 0.75 s, then brakes with 12.65 m/s^3 up to 0.774 g.
+/// 0.75 s, then brakes with 12.65 m/s^3 up to 0.774 g. Until then it holds its speed, where JRC's
+/// driver has left the accelerator and loses 0.4 m/s^2.
 class CompetentDriver final : public encounter::Method {
  public:
   [[nodiscard]] std::optional<encounter::Action> step(const encounter::View& view) override;
@@ -70,15 +71,17 @@ struct FuzzySurrogates {
 [[nodiscard]] FuzzySurrogates fuzzy_surrogates(double gap, double speed, double ahead,
                                                double acceleration);
 
-/// JRC's fuzzy safety model: 0.75 s after one of the two surrogates rises above 0 it brakes as hard
-/// as they say, and lets go when both are 0 again.
+/// JRC's fuzzy safety model: once one of the two surrogates has been above 0 for 0.75 s, all in
+/// all, it brakes as hard as they say; it lets go when both are 0 again. It reacts once: a risk
+/// that comes back is braked for at once, from the deceleration that it had last.
 class FuzzySafety final : public encounter::Method {
  public:
   [[nodiscard]] std::optional<encounter::Action> step(const encounter::View& view) override;
 
  private:
-  std::optional<double> seen_;
-  double asked_ = 0.0;
+  int looks_ = 0;       ///< at a risk, until it has reacted
+  double asked_ = 0.0;  ///< deceleration [m/s^2]
+  bool brakes_ = false;
 };
 
 }  // namespace saca::eval

@@ -96,5 +96,33 @@ TEST_F(DriverModels, TheFuzzyModelLetsGoWhenBothDistancesAreKeptAgain) {
   EXPECT_EQ(goes->plan.policy, PolicyId::no_intervention);
 }
 
+// As in JRC's FSM_react: 0.75 s are taken once, in looks at a risk; a risk that was away for a
+// moment is braked for at once.
+TEST_F(DriverModels, TheFuzzyModelReactsOnce) {
+  FuzzySafety fuzzy;
+  const auto look = [&](int k, bool risk) {
+    world::Scene scene = test::ego_at(20.0);
+    scene.time = 0.01 * k;
+    if (risk) {
+      scene.actors.push_back(test::car(1, {2.35 + 30.0 + 2.25, 0.0}));
+    }
+    return truth_.step(fuzzy, scene);
+  };
+  for (int k = 0; k < 76; ++k) {
+    EXPECT_EQ(look(k, k != 50), std::nullopt) << "one look without is no new reaction: " << k;
+  }
+  const auto first = look(76, true);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_NEAR(first->deceleration, 0.1265, 1e-9);
+  double last = 0.0;
+  for (int k = 77; k < 96; ++k) {
+    last = look(k, true)->deceleration;
+  }
+  EXPECT_NEAR(last, 20 * 0.1265, 1e-9);
+  EXPECT_EQ(look(96, false)->plan.policy, PolicyId::no_intervention);
+  EXPECT_EQ(look(97, false), std::nullopt);
+  EXPECT_NEAR(look(98, true)->deceleration, 21 * 0.1265, 1e-9);
+}
+
 }  // namespace
 }  // namespace saca::eval::driver_models_test

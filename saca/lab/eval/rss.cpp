@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "saca/onboard/vehicle/vehicle.h"
 
@@ -29,10 +30,13 @@ std::optional<LaneView> nearest_danger(const world::Scene& scene, const RssParam
   return nearest;
 }
 
-/// All that the road's grip gives does not stop the ego before it meets the other.
+/// All that the road's grip gives does not stop the ego before it meets the other, who comes nearer
+/// all the while where it is oncoming.
 bool brakes_too_late(const LaneView& view, double grip) {
+  const double braking = grip * vehicle::gravity;
   const double closing = view.ego_speed - std::max(0.0, view.speed);
-  return closing > 0.0 && closing * closing / (2.0 * grip * vehicle::gravity) > view.gap;
+  const double oncoming = std::max(0.0, -view.speed) * view.ego_speed / braking;
+  return closing > 0.0 && closing * closing / (2.0 * braking) + oncoming > view.gap;
 }
 
 /// Is there a lane of the ego's own direction on this side, in which the distances to all are kept?
@@ -99,7 +103,7 @@ bool rss_dangerous(const LaneView& view, const RssParameters& parameters) {
 std::optional<Action> Rss::step(const encounter::View& view) {
   const world::Scene& scene = view.scene;
   const auto danger = nearest_danger(scene, parameters_);
-  if (steers_ || danger.has_value() == brakes_) {
+  if (steers_ || (!danger && !brakes_)) {
     return std::nullopt;
   }
   if (!danger) {
@@ -118,7 +122,9 @@ std::optional<Action> Rss::step(const encounter::View& view) {
       }
     }
   }
-  brakes_ = true;
+  if (std::exchange(brakes_, true)) {
+    return std::nullopt;
+  }
   return Action{.plan = {PolicyId::aeb, std::nullopt},
                 .deceleration = parameters_.response_braking,
                 .source = "rss",

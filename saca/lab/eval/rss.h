@@ -40,7 +40,9 @@ struct RssParameters {
 /// Neither the distance along the lane nor that across is kept.
 [[nodiscard]] bool rss_dangerous(const LaneView& view, const RssParameters& parameters = {});
 
-/// RSS as a method: brakes as long as somebody ahead is dangerously near.
+/// RSS as a method: brakes as long as somebody ahead is dangerously near. It acts at the first look
+/// at which a distance is not kept, and with all that its response asks for: unlike JRC's
+/// implementation, which lets the response time pass first and builds the braking up with a jerk.
 ///
 /// Roads are seen as lanes: who crosses is somebody ahead who does not move along the lane but
 /// comes nearer across it.
@@ -48,7 +50,8 @@ class Rss final : public encounter::Method {
  public:
   enum class Response : std::uint8_t {
     braking,
-    /// Where full braking comes too late: a lane change to where the distances are kept.
+    /// Where full braking comes too late, at first or while it brakes: a lane change to where the
+    /// distances are kept.
     braking_or_steering,
   };
 

@@ -88,5 +88,31 @@ TEST_F(RssMethod, SteersWhereBrakingComesTooLateAndALaneIsFree) {
   EXPECT_EQ(step(oncoming, scene)->plan.policy, PolicyId::aeb);
 }
 
+// It brakes for who is 40 m away, and 20 m later braking no longer does: from 20 m/s it needs 22.7
+// m.
+TEST_F(RssMethod, SteersWhereBrakingTurnsOutTooLate) {
+  Rss rss(Rss::Response::braking_or_steering);
+  EXPECT_EQ(step(rss, with_car(40.0, 0.0))->plan.policy, PolicyId::aeb);
+  EXPECT_EQ(step(rss, with_car(23.0, 0.0)), std::nullopt);
+  const auto steers = step(rss, with_car(22.0, 0.0));
+  ASSERT_TRUE(steers.has_value());
+  EXPECT_EQ(steers->plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(step(rss, with_car(10.0, 0.0)), std::nullopt);
+
+  Rss braking(Rss::Response::braking);
+  EXPECT_EQ(step(braking, with_car(40.0, 0.0))->plan.policy, PolicyId::aeb);
+  EXPECT_EQ(step(braking, with_car(10.0, 0.0)), std::nullopt);
+}
+
+// Who comes at 10 m/s comes 22.7 m nearer in the 2.27 s in which 20 m/s are braked away in 22.7 m.
+TEST_F(RssMethod, WhoComesNearerMeanwhileIsReckonedWith) {
+  const auto acts = [&](double gap) {
+    Rss rss(Rss::Response::braking_or_steering);
+    return step(rss, with_car(gap, -10.0))->plan.policy;
+  };
+  EXPECT_EQ(acts(46.0), PolicyId::aeb);
+  EXPECT_EQ(acts(44.8), PolicyId::aes_left);
+}
+
 }  // namespace
 }  // namespace saca::eval::rss_test
