@@ -8,6 +8,7 @@
 
 #include "saca/base/core/contract.h"
 #include "saca/base/core/quintic.h"
+#include "saca/base/core/units.h"
 
 namespace saca::scenario {
 namespace {
@@ -50,8 +51,10 @@ Deed deed_of(const Script& script, const std::optional<double>& choice) {
   return *choice < stop + script.chance_run.value_or(0.0) ? Deed::run : Deed::go_on;
 }
 
-SpeedProfile speed_of(const Script& script, const ActorChance& chance) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// @param braking  the hardest that the road allows [m/s^2]
+SpeedProfile speed_of(const Script& script, const ActorChance& chance, double braking = endless) {
   SpeedProfile profile{.speed = script.speed, .from = std::max(0.0, script.from + chance.delay)};
   switch (script.behaviour) {
     case Behaviour::hold:
@@ -61,12 +64,12 @@ SpeedProfile speed_of(const Script& script, const ActorChance& chance) {
     case Behaviour::follow:
       break;
     case Behaviour::accelerate:
-      profile.acceleration = chance.strength * script.acceleration;
-      profile.last = script.until_speed.value_or(script.acceleration < 0.0 ? 0.0 : infinity);
+      profile.acceleration = std::max(-braking, chance.strength * script.acceleration);
+      profile.last = script.until_speed.value_or(script.acceleration < 0.0 ? 0.0 : endless);
       break;
     case Behaviour::brake:
     case Behaviour::lane_change:
-      profile.acceleration = -chance.strength * script.acceleration;
+      profile.acceleration = -std::min(braking, chance.strength * script.acceleration);
       break;
     case Behaviour::walk:
       switch (deed_of(script, chance.choice)) {
@@ -108,9 +111,18 @@ Aside aside(const Script& script, const SpeedProfile& speed, double time) {
   return {d + change * quintic(x), d + change * sum / way, change * slope};
 }
 
+/// How hard an actor brakes at most, in its own time: with the grip that the road really has. As
+/// written a script may ask for more than its scenario's grip; drawn, it gets no more of that
+/// [m/s^2].
+double hardest_braking(const Scenario& scenario, const Script& script, const Chance& chance,
+                       const ActorChance& actor) {
+  const double written = std::max(from_g(scenario.grip), std::abs(script.acceleration));
+  return written * chance.car.grip / (actor.speed * actor.speed);
+}
+
 Pose scripted_pose(const world::Road& road, const Script& script, double time,
-                   const ActorChance& chance) {
-  const SpeedProfile speed = speed_of(script, chance);
+                   const ActorChance& chance, double braking = endless) {
+  const SpeedProfile speed = speed_of(script, chance, braking);
   const double made = speed.way(time);
   const world::LanePose& start = script.start;
   const bool along = start.heading == 0.0;
@@ -205,8 +217,10 @@ Pose actor_pose(const Scenario& scenario, std::size_t actor, double time, const 
   const double own = own_time(time, drawn, chance.from);
   const auto* recording = std::get_if<Recording>(&body.motion);
   expects(recording == nullptr || !recording->empty(), "a recording has samples");
-  const Pose X_WA = recording == nullptr
-                        ? scripted_pose(scenario.road, std::get<Script>(body.motion), own, drawn)
+  const auto* script = std::get_if<Script>(&body.motion);
+  const Pose X_WA = script != nullptr
+                        ? scripted_pose(scenario.road, *script, own, drawn,
+                                        hardest_braking(scenario, *script, chance, drawn))
                         : recorded_pose(*recording, own);
   return {X_WA * Vec2{drawn.ahead, drawn.aside}, X_WA.yaw};
 }

@@ -151,6 +151,29 @@ TEST(ActorTrack, ChanceShiftsDelaysAndScales) {
   EXPECT_NEAR(pose_at(actor_track(scenario, 0, step, chance), 6.0).p.x, 10.0 + 8.0, 1e-12);
 }
 
+// A fifth harder than written would be 9.6 m/s^2; a real grip of 0.8 times 0.9 gives 7.06: from
+// 8 m/s, 4.53 m. In a time that runs 1.1 times as fast the same road gives as much.
+TEST(ActorTrack, NobodyBrakesHarderThanTheRoadAllows) {
+  Scenario scenario = with(script(8.0, Behaviour::brake, 8.0));
+  scenario.grip = 0.9;
+  Chance chance;
+  chance.car.grip = 0.8;
+  chance.actors[0].strength = 1.2;
+  EXPECT_NEAR(pose_at(actor_track(scenario, 0, step, chance), 6.0).p.x,
+              10.0 + 64.0 / (2.0 * 0.9 * 0.8 * 9.80665), 1e-9);
+  chance.actors[0].speed = 1.1;
+  EXPECT_NEAR(pose_at(actor_track(scenario, 0, step, chance), 6.0).p.x,
+              10.0 + 1.21 * 64.0 / (2.0 * 0.9 * 0.8 * 9.80665), 1e-3);
+  scenario.grip = 0.5;  // as written it is played, whatever the road
+  EXPECT_NEAR(pose_at(actor_track(scenario, 0, step), 6.0).p.x, 10.0 + 4.0, 1e-12);
+  std::get<Script>(scenario.actors[0].motion).behaviour = Behaviour::accelerate;
+  std::get<Script>(scenario.actors[0].motion).acceleration = -4.0;
+  chance = {};
+  chance.actors[0].strength = 1.5;
+  EXPECT_NEAR(pose_at(actor_track(scenario, 0, step, chance), 6.0).p.x,
+              10.0 + 64.0 / (2.0 * 0.5 * 9.80665), 1e-9);
+}
+
 TEST(ActorTrack, ChanceRunsThroughAMotionFasterFromATimeOn) {
   Chance chance;
   chance.from = 2.0;
