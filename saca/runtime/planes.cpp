@@ -195,8 +195,9 @@ void Planes::begin_anew(Reset forgotten) {
 
 bool Planes::is_to_be_judged(const TimedScene& newest) const {
   return !world::broken_rule(newest.scene) &&
-         (newest.under_way || preview::previewed_threat(newest.scene, newest.beliefs,
-                                                        setup_.forecast.motion, setup_.thresholds));
+         (newest.under_way || reflex::measured_threat(newest.scene, setup_.thresholds) ||
+          preview::previewed_threat(newest.scene, newest.beliefs, setup_.forecast.motion,
+                                    setup_.thresholds));
 }
 
 void Planes::judge(const TimedScene& newest) {

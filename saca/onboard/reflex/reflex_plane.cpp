@@ -117,9 +117,7 @@ bool ReflexPlane::is_watched(const Scene& scene) const noexcept {
 
 std::optional<Threat> ReflexPlane::foreseen(const Scene& scene,
                                             const TrackConfirmation& tracks) const noexcept {
-  Thresholds within_t2 = tools_.thresholds;
-  within_t2.trigger = within_t2.preview;
-  return triggering_threat(scene, within_t2, tracks.confirmed());
+  return measured_threat(scene, tools_.thresholds, tracks.confirmed());
 }
 
 bool ReflexPlane::agrees_with_last() noexcept {
@@ -131,6 +129,9 @@ std::optional<Decision> ReflexPlane::decide_early(const Scene& scene,
                                                   const Threat& threat) noexcept {
   watched_at_ = scene.time;
   const auto cost = is_fresh(verdict_, scene) ? cost_of_waiting(*verdict_) : std::nullopt;
+  if (cost && *cost <= *tools_.thresholds.waiting_cost) {
+    costly_at_ = never;  // the next costly one stands alone again
+  }
   if (!cost || *cost <= *tools_.thresholds.waiting_cost || !agrees_with_last()) {
     return std::nullopt;
   }

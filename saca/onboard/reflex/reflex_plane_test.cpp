@@ -212,6 +212,20 @@ TEST(ReflexPlane, BeforeT1TwoVerdictsRunningHaveToAgree) {
   EXPECT_FALSE(acts(1.0, 1.0));
 }
 
+// 0.02, nothing, 0.02: the one in between says that there is time.
+TEST(ReflexPlane, BeforeT1AVerdictThatDisagreesIsNotPassedOver) {
+  ReflexPlane plane{ReflexTools{}};
+  Scene scene = wreck_in(2.4);
+  for (const auto& [time, cost] : {std::pair{0.0, 0.02}, {0.1, 0.0}, {0.2, 0.02}}) {
+    scene.time = time;
+    plane.receive(waiting_costs(time, cost));
+    EXPECT_FALSE(plane.step(scene).triggered) << time;
+  }
+  scene.time = 0.3;
+  plane.receive(waiting_costs(0.3, 0.02));
+  EXPECT_TRUE(plane.step(scene).triggered);
+}
+
 // Ten times a second at most: in between nobody has to make a verdict.
 TEST(ReflexPlane, LooksAtVerdictsBeforeT1EveryTenthOfASecond) {
   ReflexPlane plane{ReflexTools{}};

@@ -119,20 +119,19 @@ bool Supervisor::somebody_came(const Scene& scene) const noexcept {
 
 std::optional<Switch> Supervisor::better(const SupervisedScene& now) noexcept {
   const JudgedPlan* const least = least_harmful(*now.verdict);
+  const Plan wanted = plan_of(*now.verdict);  // as good as the least, as far as can be told
+  const double harm = harm_of(*now.verdict, wanted);
   const double before = harm_of_going_on(now);
   const bool is_better = least != nullptr && least->harm + material_harm <= before &&
-                         !manoeuvre::drifts(now.under_way.plan.policy);
-  const auto wanted = is_better ? std::optional(plan_of(*now.verdict)) : std::nullopt;
-  const bool twice = wanted && better_before_ == wanted->policy;
-  better_before_ = wanted ? std::optional(wanted->policy) : std::nullopt;
-  if (!twice || !is_another(*wanted, now.under_way.plan) ||
+                         harm < before && !manoeuvre::drifts(now.under_way.plan.policy);
+  const bool twice = is_better && better_before_ == wanted.policy;
+  better_before_ = is_better ? std::optional(wanted.policy) : std::nullopt;
+  if (!twice || !is_another(wanted, now.under_way.plan) ||
       (switched_ && !somebody_came(now.scene))) {
     return std::nullopt;
   }
-  return Switch{.plan = *wanted,
-                .reason = SwitchReason::better_by_far,
-                .harm = least->harm,
-                .harm_before = before};
+  return Switch{
+      .plan = wanted, .reason = SwitchReason::better_by_far, .harm = harm, .harm_before = before};
 }
 
 std::optional<Switch> Supervisor::look(const SupervisedScene& now,

@@ -63,9 +63,10 @@ struct SupervisedScene {
 /// * brake harder at once, as often as it likes, where braking is under way and harder braking is
 ///   expected to harm less by more than collision::harm_tie: to wait for a second verdict would
 ///   cost way, and nothing is begun that was not under way;
-/// * begin another plan, gentler braking or doing nothing among them, where that is expected to
-///   harm less by `material_harm`, in two verdicts one after the other: once, and once more for
-///   each road user who has come since. Not out of a drift, which cannot be left.
+/// * begin another plan, gentler braking or doing nothing among them, where the least harmful is
+///   expected to harm less than going on by `material_harm`, and what would begin (plan_of) less
+///   than going on, in two verdicts one after the other: once, and once more for each road user who
+///   has come since. Not out of a drift, which cannot be left.
 /// By a verdict of the atlas, which knows one motion of each road user, nothing is given up that
 /// was begun: only the first and the third. Trivially copyable; allocates nothing.
 class Supervisor {

@@ -71,6 +71,21 @@ TEST(Supervisor, DoesNotSwitchForLessThanIsMaterial) {
   }
 }
 
+// A swerve under way harms 0.1, braking 0.088; doing nothing, 0.103, is as good as braking where
+// full braking harms much more, so that it is what would begin. It harms more than the swerve.
+TEST(Supervisor, DoesNotBeginWhatHarmsMoreThanWhatIsUnderWay) {
+  Watched watched(PolicyId::aes_left);
+  for (int k = 1; k < 20; ++k) {
+    Verdict verdict = verdict_of(
+        0.1 * k,
+        {{PolicyId::aeb, 0.6}, {PolicyId::aes_right, 0.088}, {PolicyId::no_intervention, 0.103}});
+    verdict.under_way = {
+        .plan = {PolicyId::aes_left, std::nullopt}, .drivable = true, .harm = 0.1, .contact = 0.5};
+    ASSERT_EQ(plan_of(verdict), manoeuvre::doing_nothing);
+    EXPECT_EQ(watched.look(verdict), std::nullopt);
+  }
+}
+
 TEST(Supervisor, DoesNotSwitchWhereVerdictsDisagree) {
   Watched watched(PolicyId::aeb);
   for (int k = 1; k < 20; ++k) {

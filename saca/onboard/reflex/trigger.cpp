@@ -24,10 +24,15 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   return nearest;
 }
 
+std::optional<Threat> measured_threat(const world::Scene& scene, const Thresholds& thresholds,
+                                      const ActorSet& who) {
+  return nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance,
+                        world::EgoPrediction::as_measured, who);
+}
+
 std::optional<Threat> triggering_threat(const world::Scene& scene, const Thresholds& thresholds,
                                         const ActorSet& who) {
-  const auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance,
-                                     world::EgoPrediction::as_measured, who);
+  const auto threat = measured_threat(scene, thresholds, who);
   return threat && threat->time <= thresholds.trigger ? threat : std::nullopt;
 }
 

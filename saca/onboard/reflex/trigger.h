@@ -45,8 +45,14 @@ constexpr ActorSet all_actors{~0ULL};
     const world::Scene& scene, double horizon, double tolerance,
     world::EgoPrediction ego = world::EgoPrediction::in_lane, const ActorSet& who = all_actors);
 
-/// The conflict that sets off the trigger: the nearest within T1, the ego going on as it is
-/// measured to, so that a driver who already brakes or steers enough is left alone. nullopt: none
+/// The nearest conflict within T2, the ego going on as it is measured to, so that a driver who
+/// already brakes or steers enough is left alone: what may become the trigger. Allocates nothing.
+/// @param who  nobody else is looked at
+[[nodiscard]] std::optional<Threat> measured_threat(const world::Scene& scene,
+                                                    const Thresholds& thresholds,
+                                                    const ActorSet& who = all_actors);
+
+/// The conflict that sets off the trigger: measured_threat where it is within T1. nullopt: none
 /// does now. The one rule of the reflex plane and of everybody who is compared with it. Allocates
 /// nothing.
 /// @param who  nobody else is looked at

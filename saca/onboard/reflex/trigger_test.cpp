@@ -56,6 +56,19 @@ TEST(TriggeringThreat, IsTheNearestOnceItIsWithinT1) {
   EXPECT_FALSE(triggering_threat(scene, Thresholds{.trigger = 1.1}).has_value());
 }
 
+// Who drifts out of the lane at 1 m/s meets, 3 s on, who is not in it; in the lane nobody is met.
+TEST(MeasuredThreat, IsThereLongBeforeT1ForWhoLeavesTheLane) {
+  world::Scene scene = test::ego_at(20.0);
+  scene.ego.X_WB.yaw = std::asin(1.0 / 20.0);
+  scene.actors.push_back(test::car(1, {20.0 * 3.0, 3.0}));
+  EXPECT_FALSE(nearest_threat(scene, Thresholds{}.preview, Thresholds{}.trigger_tolerance));
+  EXPECT_FALSE(triggering_threat(scene, Thresholds{}));
+  const auto threat = measured_threat(scene, Thresholds{});
+  ASSERT_TRUE(threat.has_value());
+  EXPECT_GT(threat->time, 2.0);
+  EXPECT_LT(threat->time, 3.0);
+}
+
 /// A wreck this far ahead of the ego's front [m].
 Scene wreck_after(double gap, double speed) {
   Scene scene = ego_at(speed, whole_metres);
