@@ -89,7 +89,7 @@ forecast::Plans candidates_for_later(const reflex::Verdict& verdict) {
   return plans;
 }
 
-/// Verdict::later.
+/// Likewise Verdict::later, before strengths are spread.
 std::optional<double> least_harm_later(const reflex::Verdict& verdict,
                                        const preview::PreparedMotions& motions) {
   const reflex::JudgedPlan* const nothing = reflex::find_plan(verdict, manoeuvre::doing_nothing);
@@ -105,6 +105,15 @@ std::optional<double> least_harm_later(const reflex::Verdict& verdict,
     }
   }
   return least;
+}
+
+/// Waiting costs this much, whatever has become of the plans' harms since it was worked out.
+void keep_waiting_cost(reflex::Verdict& verdict, const std::optional<double>& cost) {
+  const reflex::JudgedPlan* const best = reflex::least_harmful(verdict);
+  verdict.later.reset();
+  if (cost && best != nullptr) {
+    verdict.later = std::max(0.0, best->harm + *cost);
+  }
 }
 
 // ---- What cues of a scene stand for
@@ -134,16 +143,6 @@ void mix_in(reflex::Verdict& verdict, const reflex::Verdict& as_seen,
   }
   if (verdict.under_way && supposed.under_way) {
     mix(*verdict.under_way, *as_seen.under_way, &*supposed.under_way);
-  }
-}
-
-/// What waiting costs is as without cues.
-void keep_waiting_cost(reflex::Verdict& verdict, const reflex::Verdict& as_seen) {
-  const auto cost = reflex::cost_of_waiting(as_seen);
-  const reflex::JudgedPlan* const best = reflex::least_harmful(verdict);
-  verdict.later.reset();
-  if (cost && best != nullptr) {
-    verdict.later = best->harm + *cost;
   }
 }
 
@@ -187,7 +186,8 @@ reflex::Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& bel
   if (verdict.under_way) {
     note(*verdict.under_way);
   }
-  const Depth of_supposed{.draws = (num_draws_ + 1) / 2, .later = false, .may_be_short = false};
+  // By the same draws as what is seen, so that nothing but the supposition makes a difference.
+  const Depth of_supposed{.draws = num_draws_, .later = false, .may_be_short = false};
   for (const preview::Supposition& one : all) {
     reflex::Verdict supposed = judge_as_seen(one.scene, one.beliefs, under_way, of_supposed);
     if (one.is_slippery) {
@@ -195,7 +195,7 @@ reflex::Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& bel
     }
     mix_in(verdict, as_seen, supposed, one.probability);
   }
-  keep_waiting_cost(verdict, as_seen);
+  keep_waiting_cost(verdict, reflex::cost_of_waiting(as_seen));
   return verdict;
 }
 
@@ -222,10 +222,12 @@ reflex::Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beli
   }
   const forecast::Plans plans = forecast::all_plans(scene.ego.v_B.x, tools_.braking);
   judge_plans({plans.begin(), plans.size()});
-  reflex::spread_over_strengths(verdict);
   if (depth.later && !under_way) {
     verdict.later = least_harm_later(verdict, motions);
   }
+  const auto cost = reflex::cost_of_waiting(verdict);
+  reflex::spread_over_strengths(verdict);
+  keep_waiting_cost(verdict, cost);
   if (under_way && reflex::has_past(under_way->plan)) {
     preview::ExpectedHarm rest = motions.harm(rest_of(*under_way, scene, *tools_.car));
     rest.plan = under_way->plan;

@@ -1,6 +1,7 @@
 #include "saca/thinking/intent/likely_motions.h"
 
 #include <cmath>
+#include <utility>
 
 #include "saca/thinking/intent/line.h"
 
@@ -105,10 +106,17 @@ Forecast forecast_of(const LikelyMotion& motion, const world::Scene& scene,
                         motion.hard ? hard_braking(law) : law);
   }
   const Line line = line_of(scene, actor);
-  Forecast forecast = motion_under(scene, along(line, actor), motion.intention, horizon, law);
+  const world::Actor on = along(line, actor);
+  Forecast forecast = motion_under(scene, on, motion.intention, horizon, law);
+  double made = 0.0;  // along the lane [m]
+  Vec2 before_W = forecast.track.X_WA.front().p;
   for (std::size_t k = 1; k < forecast.track.X_WA.size(); ++k) {
-    const double after = static_cast<double>(k) * forecast.track.step;
     Pose& pose = forecast.track.X_WA[k];
+    made += norm(pose.p - std::exchange(before_W, pose.p));
+    // The move is made along the way: who stops does not go on aside.
+    const double after = is_braking(motion.intention)
+                             ? made / norm(on.v_W)
+                             : static_cast<double>(k) * forecast.track.step;
     pose.p = pose.p + rotated({0.0, motion.aside->way(after)}, pose.yaw);
     pose.yaw = wrap_angle(pose.yaw + std::atan2(motion.aside->speed(after), line.speed));
     forecast.spread.at[k].across_sd = std::hypot(actor.position_sd, motion.aside->way_sd(after));

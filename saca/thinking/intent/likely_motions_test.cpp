@@ -110,6 +110,24 @@ TEST(LikelyMotions, GoOnToTheSideAndThenAlongTheLane) {
   EXPECT_NEAR(world::spread_at(forecast.spread, 4.0).across_sd, std::hypot(0.1, 0.3), 1e-9);
 }
 
+// 10 m/s, and 3 m/s2 are measured: after 3.4 s it stands, having made 16.7 m, which at its first
+// speed take 1.7 s of a move of 4 s. There it stays.
+TEST(LikelyMotions, OfWhoStopsEndAsideWhereItStands) {
+  world::Scene scene = with_a_car(1.0);
+  scene.actors[0].a_W = {-3.0, 0.0};
+  const LikelyMotion motion{
+      1.0, Intention::brake,
+      SideMove{.probability = 1.0, .size = 2.0, .time = 4.0, .share = 0.5, .left_sd = 0.3}};
+  const Forecast forecast = forecast_of(motion, scene, scene.actors[0], 8.0, {});
+  const Pose stands = world::pose_at(forecast.track, 3.6);
+  EXPECT_NEAR(stands.p.x, 40.0 + 100.0 / 6.0, 0.1);
+  EXPECT_NEAR(stands.p.y, motion.aside->way(10.0 / 6.0), 0.05);
+  EXPECT_LT(stands.p.y, 0.8 * motion.aside->way(3.6));
+  const Pose later = world::pose_at(forecast.track, 8.0);
+  EXPECT_NEAR(later.p.x, stands.p.x, 1e-9);
+  EXPECT_NEAR(later.p.y, stands.p.y, 1e-9);
+}
+
 // Three of ten who brake do it by 6 m/s2, or harder where harder is measured: after 1 s, of which
 // half is the rise, 6 (1 - 0.5 / 2) are off the speed.
 TEST(LikelyMotions, OfWhoBrakesAreHardToo) {

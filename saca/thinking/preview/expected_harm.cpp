@@ -291,6 +291,11 @@ std::vector<ExpectedHarm> PreparedMotions::harms_later(
   later.ego.X_WB = track.X_WA[count];
   later.ego.v_B = going_on->v_B[count];
   later.ego.yaw_rate = going_on->yaw_rate[count];
+  if (count > 0) {  // brakes that the ego lets go of have to build up anew
+    const Vec2 before_W = rotated(going_on->v_B[count - 1], track.X_WA[count - 1].yaw);
+    const Vec2 now_W = rotated(going_on->v_B[count], track.X_WA[count].yaw);
+    later.ego.a_B = rotated((1.0 / track.step) * (now_W - before_W), -track.X_WA[count].yaw);
+  }
   std::vector<std::optional<EgoMotion>> ways = ways_of(later, plans, tools_);
   for (std::optional<EgoMotion>& way : ways) {
     way = way ? std::optional(continued(*going_on, count, *way)) : std::nullopt;

@@ -10,6 +10,7 @@
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/preview/forecast_for_test.h"
+#include "saca/thinking/rollout/batch.h"
 #include "tests/support/scenes.h"
 
 namespace saca::preview::expected_harm_test {
@@ -96,6 +97,29 @@ TEST(ExpectedHarm, AStopThatBeginsLaterEndsLater) {
     EXPECT_EQ(told[0].contact, more < 0.0 ? 1.0 : 0.0) << more;
     EXPECT_EQ(told[0].harm > 0.0, more < 0.0) << more;
     EXPECT_EQ(told[0].plan, manoeuvre::full_braking);
+  }
+}
+
+// A driver brakes with 4 m/s2. Going on lets go of the brakes: what begins 0.4 s later starts as it
+// does from a car that rolls as fast, and not with the pressure of before.
+TEST(ExpectedHarm, BrakesThatWereLetGoOfBuildUpAnew) {
+  constexpr double delay = 0.4;
+  const std::array brakes{manoeuvre::full_braking};
+  Scene far = behind_a_car(40.0, 0.0);
+  far.ego.a_B = {-4.0, 0.0};
+  const rollout::Drive drive =
+      rollout::drive_from(small_atlas_car(), manoeuvre::doing_nothing, far, delay);
+  const manoeuvre::EgoMotion going_on = rollout::drive_all({&drive, 1}, delay).front();
+  Scene rolls = far;
+  rolls.ego = {.X_WB = going_on.track.X_WA.back(), .v_B = going_on.v_B.back()};
+  const auto stop = rolled_out(rolls, all_going_on(rolls).tracks, brakes, rolling());
+  const double way = 40.0 - stop[0].outcome().clearance;
+  for (const double more : {-0.1, 0.1}) {
+    Scene scene = behind_a_car(way + more, 0.0);
+    scene.ego.a_B = far.ego.a_B;
+    const JointMotion stands = all_going_on(scene);
+    const auto told = PreparedMotions(scene, {&stands, 1}, rolling()).harms_later(delay, brakes);
+    EXPECT_EQ(told[0].contact, more < 0.0 ? 1.0 : 0.0) << more;
   }
 }
 

@@ -151,7 +151,7 @@ world::SpreadOverTime as_perceived(const Actor& actor, double start) {
 Scene moved_on(const Scene& scene, const std::vector<Forecast>& forecasts, double after) {
   Scene later = scene;
   later.time = scene.time + after;
-  const double speed = norm(scene.ego.v_B);
+  const double speed = scene.ego.v_B.x < 0.0 ? 0.0 : norm(scene.ego.v_B);  // as ego_going_on
   later.ego = {.X_WB = world::ego_going_on(scene, after),
                .v_B = {speed, 0.0},
                .yaw_rate = speed * scene.road.curvature,
