@@ -2,32 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <set>
-
 #include "saca/thinking/memory/scene_json.h"
 #include "saca/thinking/memory/thinning.h"
 
 namespace saca::banks {
-namespace {
 
-/// The same scene of the same source: it is the same case, whatever else is said of it.
 std::string name_of_case(const memory::Case& one) {
   return one.source + '\n' + memory::to_json(one.scene).dump();
 }
-
-/// Leaves out what the bank has already, and what comes twice.
-/// @return  how many
-std::size_t leave_out_known(std::vector<memory::Case>& cases,
-                            const std::vector<memory::Case>& known) {
-  std::set<std::string> keys;
-  for (const memory::Case& one : known) {
-    keys.insert(name_of_case(one));
-  }
-  return std::erase_if(
-      cases, [&](const memory::Case& one) { return !keys.insert(name_of_case(one)).second; });
-}
-
-}  // namespace
 
 memory::Case expert_case(const world::Scene& scene, const ExpertWord& word) {
   memory::Case one{.scene = scene,
@@ -56,16 +38,12 @@ Result<CaseImport> import_cases(memory::Store& bank, std::vector<memory::Case> c
       one.trust = memory::Trust::unchecked;
     }
   }
-  const auto known = bank.all();
-  if (!known.has_value()) {
-    return known.error();
-  }
-  const std::size_t left_out = leave_out_known(cases, known.value());
-  const auto ids = bank.add_all(cases);
+  const auto ids = bank.add_new(cases, name_of_case);
   if (!ids.has_value()) {
     return ids.error();
   }
-  return CaseImport{bank.name(), cases.size(), left_out, trust};
+  const std::size_t taken = ids.value().size();
+  return CaseImport{bank.name(), taken, cases.size() - taken, trust};
 }
 
 std::string text_of(const CaseImport& import) {
@@ -78,17 +56,28 @@ std::string text_of(const CaseImport& import) {
 }
 
 Result<Thinning> thin(ReadBank& bank, std::size_t most) {
-  const std::vector<match::CaseId> ids = memory::most_redundant(bank.cases, most);
-  if (const auto problem = bank.store.forget(ids)) {
-    return *problem;
+  const std::vector<memory::Case> gone =
+      memory::cases_of(memory::most_redundant(bank.cases, most), bank.cases);
+  const auto changed = bank.store.forget(gone);
+  if (!changed.has_value()) {
+    return changed.error();
   }
-  return Thinning{bank.store.name(), ids.size(), bank.cases.size() - ids.size(), most};
+  const std::size_t forgotten = gone.size() - changed.value();
+  return Thinning{.bank = bank.store.name(),
+                  .forgotten = forgotten,
+                  .left = bank.cases.size() - forgotten,
+                  .most = most,
+                  .changed = changed.value()};
 }
 
 std::string text_of(const Thinning& thinning) {
-  return fmt::format("{}: {} cases forgotten, {} left{}\n", thinning.bank, thinning.forgotten,
-                     thinning.left,
-                     thinning.left > thinning.most ? ": nothing else is stood for by another" : "");
+  const bool all_tried = thinning.left > thinning.most + thinning.changed;
+  return fmt::format(
+      "{}: {} cases forgotten, {} left{}{}\n", thinning.bank, thinning.forgotten, thinning.left,
+      thinning.changed > 0
+          ? fmt::format(", {} of them since somebody learnt of them meanwhile", thinning.changed)
+          : "",
+      all_tried ? ": nothing else is stood for by another" : "");
 }
 
 }  // namespace saca::banks

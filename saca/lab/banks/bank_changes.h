@@ -27,6 +27,10 @@ struct ExpertWord {
 /// @param bank  its name
 [[nodiscard]] std::string text_of(const memory::LearningResult& learnt, const std::string& bank);
 
+/// What tells cases apart: the same scene of the same source is the same case, whatever else is
+/// said of it.
+[[nodiscard]] std::string name_of_case(const memory::Case& one);
+
 /// What of the trust that cases had elsewhere holds here.
 enum class ImportedTrust {
   withdrawn,  ///< what was trusted is unchecked
@@ -40,8 +44,8 @@ struct CaseImport {
   std::size_t left_out = 0;  ///< cases that were there already, or came twice
   ImportedTrust trust = ImportedTrust::withdrawn;
 };
-/// Takes over all cases, or none; the same scene of the same source is the same case, whatever else
-/// is said of it.
+/// Takes over all cases that the bank does not have (name_of_case), or none; whoever imports at the
+/// same time puts in none twice.
 /// @return  what the bank could not do
 [[nodiscard]] Result<CaseImport> import_cases(memory::Store& bank, std::vector<memory::Case> cases,
                                               ImportedTrust trust);
@@ -54,8 +58,10 @@ struct Thinning {
   std::size_t forgotten = 0;  ///< cases
   std::size_t left = 0;       ///< more than `most` where nothing else is stood for by another
   std::size_t most = 0;       ///< that were wanted
+  std::size_t changed = 0;    ///< of those left: they stay since somebody learnt of them meanwhile
 };
-/// Forgets what is missed least (memory::most_redundant), until no more than `most` are left.
+/// Forgets what is missed least (memory::most_redundant), until no more than `most` are left. What
+/// is no longer as it was read stays.
 /// @return  what the bank could not do
 [[nodiscard]] Result<Thinning> thin(ReadBank& bank, std::size_t most);
 /// In a line.

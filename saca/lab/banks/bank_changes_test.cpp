@@ -66,6 +66,15 @@ TEST_F(Import, LeavesOutWhatIsThereAndWhatComesTwice) {
   EXPECT_EQ(bank_.all().value().size(), 3U);
 }
 
+TEST_F(Import, LeavesOutWhatAnotherProcessHasAddedSinceTheBankWasOpened) {
+  memory::Store other = open_to_add(folder_.file("bank")).value();
+  ASSERT_TRUE(import_cases(other, {cases_[1]}, ImportedTrust::withdrawn).has_value());
+  const CaseImport import = import_cases(bank_, cases_, ImportedTrust::withdrawn).value();
+  EXPECT_EQ(import.taken, 1U);
+  EXPECT_EQ(import.left_out, 1U);
+  EXPECT_EQ(bank_.all().value().size(), 2U);
+}
+
 TEST_F(Import, IsToldInALine) {
   EXPECT_EQ(text_of(CaseImport{"bank", 5, 0, ImportedTrust::withdrawn}),
             "bank: 5 cases taken over: each is used only where a rollout confirms it\n");
@@ -94,6 +103,29 @@ TEST(Thinning, ForgetsWhatAnotherStandsFor) {
   EXPECT_EQ(text_of(Thinning{"bank", 1, 2, 1}),
             "bank: 1 cases forgotten, 2 left: nothing else is stood for by another\n");
   EXPECT_EQ(text_of(Thinning{"bank", 0, 2, 2}), "bank: 0 cases forgotten, 2 left\n");
+}
+
+TEST(Thinning, KeepsWhatSomebodyHasLearntOfMeanwhile) {
+  const EmptyFolder folder;
+  memory::Store store = open_to_add(folder.file("bank")).value();
+  ASSERT_TRUE(store
+                  .add_all(std::vector{best_is(PolicyId::aeb, 10.0, "a"),
+                                       best_is(PolicyId::aeb, 10.1, "b")})
+                  .has_value());
+  ReadBank bank = read_bank(folder.file("bank")).value();
+  const auto learns = [](memory::Case& one) {
+    ++one.count;
+    return true;
+  };
+  ASSERT_FALSE(store.change(2, learns));
+  const Thinning thinning = thin(bank, 1).value();
+  EXPECT_EQ(thinning.forgotten, 0U);
+  EXPECT_EQ(thinning.changed, 1U);
+  EXPECT_EQ(thinning.left, 2U);
+  EXPECT_EQ(bank.store.find(2).value().value().count, 2);
+  EXPECT_EQ(text_of(thinning),
+            folder.file("bank") +
+                ": 0 cases forgotten, 2 left, 1 of them since somebody learnt of them meanwhile\n");
 }
 
 }  // namespace

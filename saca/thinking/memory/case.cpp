@@ -48,19 +48,20 @@ std::optional<Trust> trust_from(std::string_view name) {
   return value_from<Trust>(name, trust_names);
 }
 
-bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith> now) {
-  const auto same = [&](const char* what) {
-    const auto of = [what](std::span<const MadeWith> all) {
-      const auto found = std::find_if(all.begin(), all.end(),
-                                      [what](const MadeWith& one) { return one.what == what; });
-      return found == all.end() ? nullptr : &*found;
-    };
-    const MadeWith* const before = of(then);
-    const MadeWith* const after = of(now);
-    return before != nullptr && after != nullptr && !after->digest.empty() &&
-           before->digest == after->digest;
+std::string car_and_harm(std::span<const MadeWith> made_with) {
+  const auto digest = [&](const char* what) {
+    const auto found = std::find_if(made_with.begin(), made_with.end(),
+                                    [what](const MadeWith& one) { return one.what == what; });
+    return found == made_with.end() ? std::string() : found->digest;
   };
-  return same("car") && same("harm");
+  const std::string car = digest("car");
+  const std::string harm = digest("harm");
+  return car.empty() || harm.empty() ? std::string() : car + '\n' + harm;
+}
+
+bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith> now) {
+  const std::string known = car_and_harm(then);
+  return !known.empty() && known == car_and_harm(now);
 }
 
 bool may_be_the_same_car(std::span<const MadeWith> a, std::span<const MadeWith> b) {
@@ -68,11 +69,16 @@ bool may_be_the_same_car(std::span<const MadeWith> a, std::span<const MadeWith> 
 }
 
 bool is_hearsay(const Case& one) noexcept {
-  return one.origin == Origin::expert && !one.told && !one.happened;
+  return one.origin == Origin::expert && !one.happened;
 }
 
 bool is_trusted_by(std::span<const MadeWith> car, const Case& one) {
   return one.trust == Trust::trusted && (car.empty() || same_car_and_harm(one.made_with, car));
+}
+
+bool is_trusted_by_another(std::span<const MadeWith> car, const Case& one) {
+  return one.trust == Trust::trusted && !car_and_harm(one.made_with).empty() &&
+         !is_trusted_by(car, one);
 }
 
 std::optional<CaseProblem> broken_rule(const Case& one) {

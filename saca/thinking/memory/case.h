@@ -48,6 +48,9 @@ struct MadeWith {
   bool operator==(const MadeWith&) const = default;
 };
 
+/// Car and harm as one word, by their digests; empty where one of them is not known.
+[[nodiscard]] std::string car_and_harm(std::span<const MadeWith> made_with);
+
 /// Are car and harm the same, by their digests?
 [[nodiscard]] bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith> now);
 
@@ -83,12 +86,17 @@ struct Case {
   std::vector<MadeWith> made_with;
 };
 
-/// Is nothing known of it but what somebody says is best?
+/// Is nothing known of it but what somebody says is best, and perhaps what a check expects of it?
+/// Its harms are of no encounter.
 [[nodiscard]] bool is_hearsay(const Case& one) noexcept;
 
 /// May it be used by a car of this make as it is, without a rollout in the scene at hand?
 /// @param car  what a case of that car is made with; empty: no matter which
 [[nodiscard]] bool is_trusted_by(std::span<const MadeWith> car, const Case& one);
+
+/// Is it trusted by a car that is known, and not by this one?
+/// @param car  likewise, not empty
+[[nodiscard]] bool is_trusted_by_another(std::span<const MadeWith> car, const Case& one);
 
 /// What is wrong with a case: the key by which files call it, and what was wanted.
 struct CaseProblem {

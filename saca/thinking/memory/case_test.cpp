@@ -84,6 +84,33 @@ TEST(ACase, IsOfTheSameCarAndHarmByTheirDigests) {
   EXPECT_FALSE(same_car_and_harm({}, {}));
   const std::vector<MadeWith> unknown{{"car", "van", ""}, {"harm", "h", ""}};
   EXPECT_FALSE(same_car_and_harm(unknown, unknown)) << "nobody knows";
+  EXPECT_EQ(car_and_harm(unknown), "");
+  EXPECT_EQ(car_and_harm(now), "1\n2");
+}
+
+TEST(ACase, IsTrustedByAnotherWhereItIsKnownByWhom) {
+  const std::vector<MadeWith> car{{"car", "van", "1"}, {"harm", "h", "2"}};
+  const std::vector<MadeWith> other{{"car", "suv", "3"}, {"harm", "h", "2"}};
+  Case one = usable();
+  EXPECT_FALSE(is_trusted_by_another(car, one)) << "nobody knows by whom";
+  one.made_with = other;
+  EXPECT_TRUE(is_trusted_by_another(car, one));
+  EXPECT_FALSE(is_trusted_by_another(other, one));
+  one.trust = Trust::unchecked;
+  EXPECT_FALSE(is_trusted_by_another(car, one));
+}
+
+TEST(ACase, IsHearsayAlsoWhereACheckToldWhatToExpect) {
+  Case said = usable();
+  said.origin = Origin::expert;
+  EXPECT_TRUE(is_hearsay(said));
+  said.told = PolicyHarms{0.1, 0.0};
+  EXPECT_TRUE(is_hearsay(said)) << "nothing has happened";
+  said.happened = PolicyHarms{0.1, 0.0};
+  EXPECT_FALSE(is_hearsay(said));
+  said.happened.reset();
+  said.origin = Origin::own;
+  EXPECT_FALSE(is_hearsay(said));
 }
 
 }  // namespace

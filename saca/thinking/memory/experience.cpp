@@ -77,9 +77,10 @@ Experience Experience::for_car(std::vector<MadeWith> car) {
 
 Experience::Lesson Experience::lesson_of(const Case& one) const {
   Lesson lesson{.good = as_good_as_best(one),
-                .best = one.best,
                 .errors = {},
-                .trusted = is_trusted_by(car_, one)};
+                .trusted = is_trusted_by(car_, one),
+                .own = !car_.empty() && same_car_and_harm(one.made_with, car_),
+                .of_another = !car_.empty() && !may_be_the_same_car(one.made_with, car_)};
   if (one.told && one.happened) {
     for (std::size_t p = 0; p < lesson.errors.size(); ++p) {
       const auto& told = (*one.told)[p];
@@ -95,6 +96,7 @@ Experience::Lesson Experience::lesson_of(const Case& one) const {
 void Experience::add(const Case& one) {
   index_.add(one.id, one.scene);
   lessons_.push_back(lesson_of(one));
+  has_others_ = has_others_ || lessons_.back().of_another;
   if (one.trust == Trust::quarantined) {
     pass_over(one.id);
   }
@@ -105,6 +107,10 @@ void Experience::relearn(const Case& one) {
   if (one.trust == Trust::quarantined) {
     pass_over(one.id);
   }
+}
+
+bool Experience::is_known_as(const Case& one) const {
+  return lessons_[index_.place_of(one.id)] == lesson_of(one);
 }
 
 StaticVector<match::CaseId, Experience::most_same> Experience::same_encounter_as(
@@ -118,22 +124,36 @@ StaticVector<match::CaseId, Experience::most_same> Experience::same_encounter_as
   return same;
 }
 
+StaticVector<Experience::Hit, Experience::most_recalled> Experience::asked(
+    std::span<const Hit> hits, std::span<const match::CaseId> except) const noexcept {
+  StaticVector<Hit, most_recalled> kept;
+  for (const Hit& hit : hits) {
+    const bool is_known_by_itself =
+        lessons_[hit.place].of_another &&
+        std::any_of(hits.begin(), hits.end(), [&](const Hit& other) {
+          return other.difference == hit.difference && lessons_[other.place].own;
+        });
+    const bool is_excepted = std::find(except.begin(), except.end(), hit.id) != except.end();
+    if (!is_known_by_itself && !is_excepted && kept.size() < most_recalled) {
+      kept.push_back(hit);
+    }
+  }
+  return kept;
+}
+
 std::optional<Recall> Experience::recall(const match::Features& scene,
                                          std::span<const match::CaseId> except) const noexcept {
-  std::array<match::FeatureIndex::Hit, most_recalled + most_excepted> room;
-  auto* end = room.begin() + static_cast<std::ptrdiff_t>(index_.nearest(scene, room));
-  end = std::remove_if(room.begin(), end, [&](const match::FeatureIndex::Hit& hit) {
-    return std::find(except.begin(), except.end(), hit.id) != except.end();
-  });
-  const std::span<const match::FeatureIndex::Hit> hits(
-      room.data(), std::min(static_cast<std::size_t>(end - room.begin()), most_recalled));
+  std::array<Hit, 2 * most_recalled + most_excepted> room;
+  const std::span<Hit> looked_at(room.data(),
+                                 has_others_ ? room.size() : most_recalled + most_excepted);
+  const auto hits = asked(looked_at.first(index_.nearest(scene, looked_at)), except);
   if (hits.empty()) {
     return std::nullopt;
   }
   std::array<double, manoeuvre::num_policies> for_it{};
   std::array<double, manoeuvre::num_policies> trusted{};
   double whole = doubt;
-  for (const match::FeatureIndex::Hit& hit : hits) {
+  for (const Hit& hit : hits) {
     const Lesson& lesson = lessons_[hit.place];
     const double weight = weight_at(hit.difference, recall_reach);
     whole += weight;
@@ -147,9 +167,8 @@ std::optional<Recall> Experience::recall(const match::Features& scene,
   Recall recall{.policy = manoeuvre::all_policies[most],
                 .share = for_it[most] / whole,
                 .trusted_share = trusted[most] / whole};
-  const auto nearest = std::find_if(
-      hits.begin(), hits.end(),
-      [&](const match::FeatureIndex::Hit& hit) { return lessons_[hit.place].good[most]; });
+  const auto* const nearest = std::find_if(
+      hits.begin(), hits.end(), [&](const Hit& hit) { return lessons_[hit.place].good[most]; });
   if (nearest == hits.end()) {
     return std::nullopt;  // in none of them did any policy do
   }

@@ -75,6 +75,9 @@ class Experience {
   /// From now on it speaks for what this says. Its scene stays as it was.
   /// @param one  of an id that was added
   void relearn(const Case& one);
+  /// Does it speak for what this says? No matter whether it is asked.
+  /// @param one  of an id that was added
+  [[nodiscard]] bool is_known_as(const Case& one) const;
   /// From now on this one is not asked.
   /// @param id  of one that was added
   void pass_over(match::CaseId id) { index_.pass_over(id); }
@@ -93,8 +96,8 @@ class Experience {
 
   /// Each policy's share of the weight of the cases that differ least, in which it was as good as
   /// the best; a case weighs exp(-d^2 / 2 r^2) for its difference d, and `doubt` is added to the
-  /// whole. The policy of the largest share; of equals that which was
-  /// the best in hindsight in the nearest case, else the first of PolicyId.
+  /// whole. Where the car that asks knows the very same scene itself, what other cars know of it is
+  /// not asked. The policy of the largest share; of equals the first of PolicyId.
   /// @param except  cases that are not asked, at most `most_excepted`
   /// @return        nullopt where there is none to be asked, or the features are of no scene
   [[nodiscard]] std::optional<Recall> recall(
@@ -112,16 +115,24 @@ class Experience {
   using Errors = std::array<std::optional<double>, manoeuvre::num_policies>;
   struct Lesson {
     Policies good;
-    manoeuvre::PolicyId best = manoeuvre::PolicyId::aeb;  ///< in hindsight
     Errors errors;
     bool trusted = false;
+    bool own = false;         ///< worked out with the car that asks
+    bool of_another = false;  ///< worked out with another; neither: who asks or who knew is unknown
+
+    bool operator==(const Lesson&) const = default;
   };
 
   [[nodiscard]] Lesson lesson_of(const Case& one) const;
+  using Hit = match::FeatureIndex::Hit;
+  /// Those of them that are asked, as `recall` says.
+  [[nodiscard]] StaticVector<Hit, most_recalled> asked(
+      std::span<const Hit> hits, std::span<const match::CaseId> except) const noexcept;
 
   std::vector<MadeWith> car_;
   match::FeatureIndex index_;
   std::vector<Lesson> lessons_;  ///< in its order
+  bool has_others_ = false;      ///< some were worked out with another car
 };
 
 }  // namespace saca::memory

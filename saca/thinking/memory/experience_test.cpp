@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "saca/onboard/match/example_scenes.h"
 #include "saca/onboard/match/similarity.h"
@@ -173,6 +174,66 @@ TEST(Recall, TellsWhatTrustedCasesAloneSpeakFor) {
   const Recall recall = Experience(cases).recall(match::features(match::empty_road())).value();
   EXPECT_NEAR(recall.share, 2.0 / 2.3, 1e-12);
   EXPECT_NEAR(recall.trusted_share, 1.0 / 2.3, 1e-12);
+}
+
+// Else a bank that was checked with a second car would hold each scene twice, and be half trusted.
+TEST(Recall, AsksTheCarsOwnCaseInsteadOfAnothersOfTheSameScene) {
+  const auto made_with = [](const char* car) {
+    return std::vector<MadeWith>{{"car", "car", car}, {"harm", "harm", "h"}};
+  };
+  std::vector<Case> cases;
+  for (match::CaseId id = 1; id <= 40; ++id) {
+    Case one = best_is(PolicyId::aeb, faster_by(0.05 * static_cast<double>(id)));
+    one.id = id;
+    one.made_with = made_with("theirs");
+    cases.push_back(one);
+  }
+  Experience both = Experience::for_car(made_with("ours"));
+  Experience alone = Experience::for_car(made_with("ours"));
+  for (const Case& one : cases) {
+    both.add(one);
+  }
+  const match::Features wanted = match::features(match::empty_road());
+  EXPECT_EQ(both.recall(wanted).value().trusted_share, 0.0) << "theirs are asked, not trusted";
+  for (Case& one : cases) {
+    one.made_with = made_with("ours");
+    one.id += 100;
+    both.add(one);
+    alone.add(one);
+  }
+  const Recall recall = both.recall(wanted).value();
+  EXPECT_EQ(recall.trusted_share, alone.recall(wanted).value().share);
+  EXPECT_EQ(recall.share, recall.trusted_share);
+  EXPECT_GT(recall.nearest, 100);
+}
+
+TEST(Recall, IsOfEqualsTheFirstPolicy) {
+  std::vector<Case> cases{best_is(PolicyId::es_b_left, match::empty_road()),
+                          best_is(PolicyId::aes_right, match::empty_road())};
+  const auto policy = [&] {
+    return Experience(cases).recall(match::features(match::empty_road())).value().policy;
+  };
+  EXPECT_EQ(policy(), PolicyId::aes_right);
+  std::swap(cases[0], cases[1]);
+  EXPECT_EQ(policy(), PolicyId::aes_right) << "in whatever order they were met";
+}
+
+TEST(Experience, KnowsWhetherACaseSaysSomethingElseSince) {
+  Case one = best_is(PolicyId::aeb, match::empty_road());
+  one.id = 4;
+  Experience experience;
+  experience.add(one);
+  EXPECT_TRUE(experience.is_known_as(one));
+  Case changed = one;
+  changed.review = "in other words";
+  EXPECT_TRUE(experience.is_known_as(changed)) << "it speaks for the same";
+  changed.trust = Trust::unchecked;
+  EXPECT_FALSE(experience.is_known_as(changed));
+  experience.relearn(changed);
+  EXPECT_TRUE(experience.is_known_as(changed));
+  EXPECT_FALSE(experience.is_known_as(one));
+  changed.happened.reset();
+  EXPECT_FALSE(experience.is_known_as(changed));
 }
 
 TEST(Recall, AsksNeitherWhoIsQuarantinedNorWhoIsExcepted) {

@@ -51,6 +51,9 @@ void add_lessons(Case& one, std::span<const std::string> lessons) {
 Case merged(const Case& older, const Case& newer) {
   if (is_hearsay(newer) || is_hearsay(older)) {
     Case one = is_hearsay(newer) ? older : newer;
+    if (!one.told) {
+      one.told = is_hearsay(newer) ? newer.told : older.told;
+    }
     one.id = older.id;
     one.scene = older.scene;
     one.intentions = older.intentions;
@@ -61,6 +64,7 @@ Case merged(const Case& older, const Case& newer) {
     return one;
   }
   Case one = older;
+  one.origin = newer.origin == Origin::own ? Origin::own : older.origin;
   const auto mean = [&](double Case::*harm) {
     return mean_of(older.*harm, older.count, newer.*harm, newer.count);
   };

@@ -17,8 +17,9 @@ constexpr double same_encounter = 0.25;
 /// Two cases of one encounter as one. Counts add up; harms are means of as many encounters as each
 /// stands for, and the largest is kept beside them; the best in hindsight is that of the least mean
 /// harm, as long as each policy's is known. Of hearsay there are no figures: those of the other
-/// stay as they are. All else is the older's: its id, its scene, how far it is trusted; but lessons
-/// are those of both.
+/// stay as they are, and where nothing was told there, what a check told of the hearsay is kept.
+/// All else is the older's: its id, its scene, how far it is trusted; but lessons are those of
+/// both, and what the car drove itself in one of them is its own.
 [[nodiscard]] Case merged(const Case& older, const Case& newer);
 
 /// Adds what was learnt; of more than `most_texts` the newest are kept.

@@ -66,6 +66,40 @@ TEST(AMergedCase, TakesNoFiguresOfHearsay) {
   EXPECT_EQ(merged(said, said).best, PolicyId::aes_left);
 }
 
+// A check of an expert's word says what is expected, but nobody has met that encounter.
+TEST(AMergedCase, TakesOfHearsayWhatACheckTold) {
+  Case known = with_harms({0.2, 0.1});
+  known.count = 2;
+  known.harm = 0.4;
+  Case said;
+  said.scene = match::empty_road();
+  said.origin = Origin::expert;
+  said.best = PolicyId::aes_left;
+  said.told = PolicyHarms{0.3, 0.0};
+  for (const Case& one : {merged(known, said), merged(said, known)}) {
+    EXPECT_EQ(one.count, 2);
+    EXPECT_EQ(one.harm, 0.4) << "no encounter without harm was met";
+    EXPECT_EQ(one.happened, known.happened);
+    EXPECT_EQ(one.told, said.told);
+  }
+  known.told = PolicyHarms{0.5, 0.1};
+  EXPECT_EQ(merged(known, said).told, known.told);
+  EXPECT_EQ(merged(said, known).told, known.told);
+}
+
+// Else the car's own drive could be forgotten with the shipped case that it is the same as.
+TEST(AMergedCase, IsTheCarsOwnWhereEitherIs) {
+  Case shipped = with_harms({0.2, 0.1});
+  shipped.origin = Origin::simulation;
+  Case own = shipped;
+  own.origin = Origin::own;
+  Case recorded = shipped;
+  recorded.origin = Origin::recording;
+  EXPECT_EQ(merged(shipped, own).origin, Origin::own);
+  EXPECT_EQ(merged(own, shipped).origin, Origin::own);
+  EXPECT_EQ(merged(shipped, recorded).origin, Origin::simulation);
+}
+
 TEST(Lessons, AreTheNewestOfMany) {
   Case one;
   for (std::size_t i = 0; i <= most_texts; ++i) {

@@ -71,9 +71,16 @@ TEST_F(Fleet, KeepsCasesAsAFileDoes) {
   corrected.review = "otherwise";
   EXPECT_EQ(there.change(16, becomes(corrected)), std::nullopt);
   EXPECT_EQ(here.change(16, becomes(corrected)), std::nullopt);
-  const std::vector<match::CaseId> gone{4, 7, 999};
-  EXPECT_EQ(there.forget(gone), std::nullopt);
-  EXPECT_EQ(here.forget(gone), std::nullopt);
+  std::vector<Case> gone{here.find(4).value().value(), here.find(7).value().value()};
+  gone.push_back(gone.front());
+  gone.back().id = 999;
+  EXPECT_EQ(there.forget(gone).value(), 0U);
+  EXPECT_EQ(here.forget(gone).value(), 0U);
+  gone.front() = there.find(10).value().value();
+  gone.front().review = "as it was";
+  EXPECT_EQ(there.forget({gone.data(), 1}).value(), 1U) << "somebody has changed it";
+  const auto source = [](const Case& one) { return one.source; };
+  EXPECT_EQ(there.add_new(cases, source).value(), here.add_new(cases, source).value());
   EXPECT_EQ(there.digest().value(), here.digest().value());
   EXPECT_EQ(opened().digest().value(), here.digest().value());
   const Match match = there.recall(example_case(8).scene).value().value();
@@ -98,8 +105,8 @@ TEST_F(Fleet, GivesNoIdTwice) {
   Store store = opened();
   ASSERT_EQ(store.add(example_case(1)).value(), 1);
   ASSERT_EQ(store.add(example_case(2)).value(), 2);
-  const std::vector<match::CaseId> last{2};
-  ASSERT_EQ(store.forget(last), std::nullopt);
+  const Case last = store.find(2).value().value();
+  ASSERT_EQ(store.forget({&last, 1}).value(), 0U);
   EXPECT_EQ(store.add(example_case(3)).value(), 3);
 }
 

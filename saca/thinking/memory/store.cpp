@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <string>
@@ -38,7 +39,8 @@ Gate gate(const Match& match) noexcept {
 
 struct Store::State {
   std::unique_ptr<CaseTable> table;
-  Experience experience;  ///< of the cases that were there when it was last looked at
+  Experience experience;     ///< of the cases that were there when it was last looked at
+  bool has_deleted = false;  ///< some of them are no longer there: they are passed over
 
   [[nodiscard]] std::optional<Error> each_after(match::CaseId last,
                                                 const std::function<void(Case)>& take) const {
@@ -51,6 +53,13 @@ struct Store::State {
                                take(std::move(one).value());
                                return std::nullopt;
                              });
+  }
+
+  /// Forgets all that it knows, and reads what is there.
+  [[nodiscard]] std::optional<Error> read_anew() {
+    experience.clear();
+    has_deleted = false;
+    return catch_up();
   }
 
   /// Learns the features of cases that it does not know yet.
@@ -185,14 +194,52 @@ Result<std::vector<match::CaseId>> Store::add_in_turn(std::span<const Case> case
     if (how == Adding::only_where_empty && !is_empty.value()) {
       return std::nullopt;
     }
-    for (const Case& one : cases) {
-      const auto id =
-          table.insert(cells_of(one), is_empty.value() ? std::optional(one.id) : std::nullopt);
-      if (!id.has_value()) {
-        return id.error();
-      }
-      ids.push_back(id.value());
+    auto given = insert_all(cases, is_empty.value());
+    if (!given.has_value()) {
+      return given.error();
     }
+    ids = std::move(given).value();
+    return std::nullopt;
+  });
+  if (error) {
+    return *std::move(error);
+  }
+  return ids;
+}
+
+Result<std::vector<match::CaseId>> Store::insert_all(std::span<const Case> cases,
+                                                     bool with_own_ids) {
+  std::vector<match::CaseId> ids;
+  ids.reserve(cases.size());
+  for (const Case& one : cases) {
+    const auto id =
+        state_->table->insert(cells_of(one), with_own_ids ? std::optional(one.id) : std::nullopt);
+    if (!id.has_value()) {
+      return id.error();
+    }
+    ids.push_back(id.value());
+  }
+  return ids;
+}
+
+Result<std::vector<match::CaseId>> Store::add_new(std::span<const Case> cases,
+                                                  const KeyOf& key_of) {
+  std::for_each(cases.begin(), cases.end(), check);
+  std::vector<match::CaseId> ids;
+  auto error = state_->table->in_one_transaction([&]() -> std::optional<Error> {
+    std::set<std::string> keys;
+    if (auto unread = state_->each_after(0, [&](const Case& one) { keys.insert(key_of(one)); })) {
+      return unread;
+    }
+    const bool is_empty = keys.empty();
+    std::vector<Case> fresh;
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(fresh),
+                 [&](const Case& one) { return keys.insert(key_of(one)).second; });
+    auto given = insert_all(fresh, is_empty && are_ids(fresh));
+    if (!given.has_value()) {
+      return given.error();
+    }
+    ids = std::move(given).value();
     return std::nullopt;
   });
   if (error) {
@@ -245,6 +292,11 @@ Result<LearningResult> Store::learn_now(const Case& one) {
 
 Result<LearningResult> Store::learn(const Case& one) {
   check(one);
+  if (state_->has_deleted) {
+    if (auto unread = state_->read_anew()) {
+      return *std::move(unread);
+    }
+  }
   LearningResult learnt;
   auto error = state_->table->in_one_transaction([&]() -> std::optional<Error> {
     const auto done = learn_now(one);
@@ -286,20 +338,31 @@ std::optional<Error> Store::change(match::CaseId id, const Change& change) {
   return error;
 }
 
-std::optional<Error> Store::forget(std::span<const match::CaseId> ids) {
+Result<std::size_t> Store::forget(std::span<const Case> as_read) {
+  std::size_t changed = 0;
   const auto forget_all = [&]() -> std::optional<Error> {
-    for (const match::CaseId id : ids) {
-      if (auto error = state_->table->remove(id)) {
+    changed = 0;
+    for (const Case& one : as_read) {
+      const auto now = find(one.id);
+      if (!now.has_value()) {
+        return now.error();
+      }
+      if (!now.value()) {
+        continue;
+      }
+      if (cells_of(*now.value()) != cells_of(one)) {
+        ++changed;
+      } else if (auto error = state_->table->remove(one.id)) {
         return error;
       }
     }
     return std::nullopt;
   };
-  if (auto error = state_->table->in_one_transaction(forget_all)) {
-    return error;
+  auto error = state_->table->in_one_transaction(forget_all);
+  if (!error) {
+    error = state_->read_anew();
   }
-  state_->experience.clear();  // what is left is read anew
-  return state_->catch_up();
+  return error ? Result<std::size_t>(*std::move(error)) : changed;
 }
 
 Result<std::vector<Case>> Store::all() {
@@ -342,11 +405,13 @@ Result<std::optional<Match>> Store::recall(const world::Scene& scene) {
   const match::Features wanted = match::features(scene);
   expects(wanted.ego.usable, "the scene breaks no rule");
   const ShortPatience while_asking(*state_->table);
-  while (true) {
+  constexpr int most_rounds = 100;  // each may wait for a server, and a decision waits for all
+  for (int round = 0; round < most_rounds; ++round) {
     if (auto error = state_->catch_up()) {
       return *error;
     }
-    const auto recalled = state_->experience.recall(wanted);
+    Experience& experience = state_->experience;
+    const auto recalled = experience.recall(wanted);
     if (!recalled) {
       return std::optional<Match>();
     }
@@ -354,10 +419,13 @@ Result<std::optional<Match>> Store::recall(const world::Scene& scene) {
     if (!found.has_value()) {
       return found.error();
     }
+    // What somebody has done to it since it was read:
     if (!found.value()) {
-      state_->experience.clear();  // somebody has deleted it: look again, at all
-    } else if (found.value()->trust == Trust::quarantined) {
-      state_->experience.pass_over(recalled->nearest);  // since it was read
+      experience.pass_over(recalled->nearest);
+      state_->has_deleted = true;
+    } else if (found.value()->trust == Trust::quarantined ||
+               !experience.is_known_as(*found.value())) {
+      experience.relearn(*found.value());
     } else {
       return std::optional(Match{.found = *std::move(found).value(),
                                  .similarity = recalled->similarity,
@@ -366,6 +434,7 @@ Result<std::optional<Match>> Store::recall(const world::Scene& scene) {
                                  .trusted_confidence = confidence_at(recalled->trusted_share)});
     }
   }
+  return std::optional<Match>();
 }
 
 Result<std::uint64_t> Store::digest() const {

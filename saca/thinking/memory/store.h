@@ -104,6 +104,14 @@ class Store {
   /// As `add_all` where the bank is empty, and nothing where somebody has put a case into it.
   [[nodiscard]] std::optional<Error> begin_with(std::span<const Case> cases);
 
+  /// As `add_all`, but leaves out what the bank has already when nobody else can write, and what
+  /// comes twice.
+  /// @param key_of  cases of the same key are the same case
+  /// @return        the ids given to the others, in their order
+  using KeyOf = std::function<std::string(const Case& one)>;
+  [[nodiscard]] Result<std::vector<match::CaseId>> add_new(std::span<const Case> cases,
+                                                           const KeyOf& key_of);
+
   /// Writes again what was learnt of a case since, as it is then; nobody else writes meanwhile.
   /// @param change  gets the case as it is now; its scene and id stay. False: it is left as it was.
   ///                May be asked again where the first try did not happen
@@ -112,9 +120,11 @@ class Store {
   using Change = std::function<bool(Case& one)>;
   [[nodiscard]] std::optional<Error> change(match::CaseId id, const Change& change);
 
-  /// Forgets these cases, all or none; who is not there is none to forget.
-  /// @return  unwritable; or what `open` would say of what is left
-  [[nodiscard]] std::optional<Error> forget(std::span<const match::CaseId> ids);
+  /// Forgets these cases, all or none, but for those that are not as they were read: somebody has
+  /// learnt of them since. Who is not there is none to forget.
+  /// @param as_read  as `all` or `find` gave them
+  /// @return  how many stay; unwritable; or what `open` would say of what is left
+  [[nodiscard]] Result<std::size_t> forget(std::span<const Case> as_read);
 
   /// All cases, oldest first.
   [[nodiscard]] Result<std::vector<Case>> all();
@@ -122,8 +132,10 @@ class Store {
   /// @return  nullopt when there is no case of this id
   [[nodiscard]] Result<std::optional<Case>> find(match::CaseId id);
 
-  /// What cases like this scene speak for (Experience::recall); nullopt when there is none. Who is
-  /// quarantined is passed over. A search in memory, then one row is read.
+  /// What cases like this scene speak for (Experience::recall); nullopt when there is none. A
+  /// search in memory, then one row is read. Where that is not as it was read before, it is asked
+  /// as it is now; where somebody has quarantined or deleted it, it is passed over: then the search
+  /// begins anew, at most 100 times, after which there is none.
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   [[nodiscard]] Result<std::optional<Match>> recall(const world::Scene& scene);
 
@@ -152,6 +164,9 @@ class Store {
   enum class Adding : std::uint8_t { new_ids, own_ids_where_empty, only_where_empty };
   [[nodiscard]] Result<std::vector<match::CaseId>> add_in_turn(std::span<const Case> cases,
                                                                Adding how);
+  /// In a transaction; as add_all().
+  [[nodiscard]] Result<std::vector<match::CaseId>> insert_all(std::span<const Case> cases,
+                                                              bool with_own_ids);
   /// In a transaction; as learn().
   [[nodiscard]] Result<LearningResult> learn_now(const Case& one);
 

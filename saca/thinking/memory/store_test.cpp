@@ -453,20 +453,78 @@ TEST_F(Memory, ForgetsWhatItIsToldTo) {
     cases.back().scene = match::random_scene(rng, 2);
   }
   const std::vector<match::CaseId> ids = store.add_all(cases).value();
-  EXPECT_FALSE(store.forget(std::array{ids[1], ids[3], match::CaseId{777}}));
+  const std::vector<Case> read = store.all().value();
+  Case gone = read[0];
+  gone.id = 777;
+  EXPECT_EQ(store.forget(std::vector{read[1], read[3], gone}).value(), 0U);
   EXPECT_EQ(store.size(), 3U);
   EXPECT_FALSE(store.find(ids[1]).value());
   EXPECT_TRUE(store.find(ids[2]).value());
   const auto match = store.recall(cases[3].scene).value();
   ASSERT_TRUE(match);
   EXPECT_NE(match->found.id, ids[3]);
-  EXPECT_FALSE(store.forget({}));
+  EXPECT_EQ(store.forget({}).value(), 0U);
   EXPECT_EQ(opened().size(), 3U);
   Store fixed = Store::snapshot(path_).value();
-  const auto error = fixed.forget(std::array{ids[0]});
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code, Error::Code::unwritable);
+  const auto refused = fixed.forget({read.data(), 1});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Error::Code::unwritable);
   EXPECT_EQ(fixed.size(), 3U);
+}
+
+// Who decides what may go decides by what was read; what somebody has learnt since stays.
+TEST_F(Memory, ForgetsNothingThatSomebodyHasLearntOfSince) {
+  Store store = opened();
+  const match::CaseId first = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id;
+  const match::CaseId second = store.learn(best_is(manoeuvre::PolicyId::aeb, 20.0)).value().id;
+  const std::vector<Case> read = store.all().value();
+  Store other = opened();
+  ASSERT_EQ(other.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id, first);
+  EXPECT_EQ(store.forget(read).value(), 1U);
+  EXPECT_EQ(opened().find(first).value().value().count, 2);
+  EXPECT_FALSE(opened().find(second).value().has_value());
+  EXPECT_EQ(store.size(), 1U);
+  EXPECT_EQ(store.forget(store.all().value()).value(), 0U) << "as it is now it was read";
+  EXPECT_EQ(opened().size(), 0U);
+}
+
+TEST_F(Memory, AddsOnlyWhatItHasNot) {
+  const auto source = [](const Case& one) { return one.source; };
+  std::vector<Case> cases{example_case(1), example_case(2), example_case(1)};
+  cases[0].id = 30;
+  cases[1].id = 40;
+  cases[2].id = 50;
+  Store store = opened();
+  EXPECT_THAT(store.add_new(cases, source).value(), testing::ElementsAre(30, 40))
+      << "an empty bank takes their own ids";
+  cases.push_back(example_case(3));
+  EXPECT_THAT(store.add_new(cases, source).value(), testing::ElementsAre(41));
+  EXPECT_TRUE(store.add_new(cases, source).value().empty());
+  expect_same(opened().find(41).value().value(), example_case(3));
+  cases.back().harm = -1.0;
+  EXPECT_THROW((void)store.add_new(cases, source), ContractViolation);
+  EXPECT_EQ(opened().size(), 3U);
+}
+
+TEST_F(Memory, AddsWhatIsNewOnceForTwoProcessesAtOnce) {
+  std::vector<Case> cases;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    cases.push_back(example_case(i));
+  }
+  ASSERT_TRUE(opened().add_all({}).has_value());  // the file is there
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  const bool added = [&] {
+    Store store = opened();
+    return store.add_new(cases, [](const Case& one) { return one.source; }).has_value();
+  }();
+  if (child == 0) {
+    ::_exit(added ? 0 : 1);
+  }
+  int status = 1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(added && WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(opened().size(), cases.size());
 }
 
 TEST_F(Memory, TakesManyCasesOrNone) {
@@ -870,6 +928,44 @@ TEST_F(Memory, ForgetsWhatAnotherProcessDeletes) {
   EXPECT_EQ(store.recall(example_case(1).scene).value().value().found.id, 2);
   shell(path_, "DELETE FROM cases");
   EXPECT_FALSE(store.recall(example_case(1).scene).value().has_value());
+}
+
+// Thousands of rows read anew would keep a decision waiting: only who is gone is left out.
+TEST_F(Memory, LeavesOutWhoIsDeletedWithoutReadingAllAnew) {
+  Store store = opened();
+  const Case one = best_is(manoeuvre::PolicyId::aeb, 14.0);
+  const Case far = best_is(manoeuvre::PolicyId::aes_left, 25.0);
+  ASSERT_TRUE(store.add_all(std::vector{one, one, far}).has_value());
+  ASSERT_EQ(store.recall(one.scene).value().value().found.id, 1);
+  shell(path_, "DELETE FROM cases WHERE id = 1");
+  shell(path_, "UPDATE cases SET details = 'no JSON' WHERE id = 3");  // whoever reads it fails
+  EXPECT_EQ(store.recall(one.scene).value().value().found.id, 2);
+  shell(path_, "DELETE FROM cases WHERE id = 3");
+  EXPECT_EQ(store.size(), 3U);
+  EXPECT_EQ(store.learn(one).value().id, 2);
+  EXPECT_EQ(store.size(), 1U) << "to learn there is time to read all anew";
+}
+
+// What is served is as it is now, and so is how far it may be relied on.
+TEST_F(Memory, ServesNobodyByWhatWasReadOfHimBefore) {
+  Store asked = opened();
+  Store other = opened();
+  const Case one = best_is(manoeuvre::PolicyId::aeb, 14.0);
+  const match::CaseId id = other.add(one).value();
+  const Match before = asked.recall(one.scene).value().value();
+  EXPECT_EQ(before.trusted_confidence, before.confidence);
+  const auto doubt = [](Case& known) {
+    known.trust = Trust::unchecked;
+    return true;
+  };
+  ASSERT_FALSE(other.change(id, doubt).has_value());
+  EXPECT_EQ(asked.recall(one.scene).value().value().trusted_confidence, 0.0);
+  const auto turn = [](Case& known) {
+    known.happened = best_is(manoeuvre::PolicyId::aes_left, 14.0).happened;
+    return true;
+  };
+  ASSERT_FALSE(other.change(id, turn).has_value());
+  EXPECT_EQ(asked.recall(one.scene).value().value().policy, manoeuvre::PolicyId::aes_left);
 }
 
 // Who holds the file is told, and when it is free again the store answers as before.

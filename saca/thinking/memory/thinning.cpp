@@ -1,11 +1,15 @@
 #include "saca/thinking/memory/thinning.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <queue>
+#include <set>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "saca/onboard/match/feature_index.h"
 #include "saca/onboard/match/similarity.h"
@@ -29,7 +33,8 @@ bool later(const Redundancy& a, const Redundancy& b) {
   return a.difference != b.difference ? a.difference > b.difference : a.place < b.place;
 }
 
-/// Trusted cases, those that speak for the same policies together.
+/// Trusted cases, those that speak for the same policies together, if they were worked out with the
+/// same car and harm: by another car they are not trusted.
 class Alike {
  public:
   void add(const Case& one) { group_of(one).add(one.id, one.scene); }
@@ -44,10 +49,12 @@ class Alike {
   match::FeatureIndex& group_of(const Case& one) {
     // Exact, however many: a graph in which most places are passed over would find nobody.
     constexpr auto any_number = std::numeric_limits<std::size_t>::max();
-    return groups_.try_emplace(as_good_as_best(one).to_ulong(), any_number).first->second;
+    return groups_
+        .try_emplace({as_good_as_best(one).to_ulong(), car_and_harm(one.made_with)}, any_number)
+        .first->second;
   }
 
-  std::map<unsigned long, match::FeatureIndex> groups_;
+  std::map<std::pair<unsigned long, std::string>, match::FeatureIndex> groups_;
 };
 
 }  // namespace
@@ -87,6 +94,15 @@ std::vector<match::CaseId> most_redundant(std::span<const Case> cases, std::size
   return gone;
 }
 
+std::vector<Case> cases_of(std::span<const match::CaseId> ids, std::span<const Case> cases) {
+  const std::set<match::CaseId> wanted(ids.begin(), ids.end());
+  std::vector<Case> found;
+  found.reserve(wanted.size());
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(found),
+               [&](const Case& one) { return wanted.count(one.id) > 0; });
+  return found;
+}
+
 Result<std::size_t> keep_within(Store& memory, std::size_t most, match::CaseId newest) {
   const std::size_t margin = std::max<std::size_t>(1, most / 20);
   if (memory.size() <= most || (memory.size() - most - 1) % margin != 0) {
@@ -102,10 +118,8 @@ Result<std::size_t> keep_within(Store& memory, std::size_t most, match::CaseId n
     gone = most_redundant(cases.value(), std::max<std::size_t>(kept, 1) - 1);
     std::erase(gone, newest);
   }
-  if (auto problem = memory.forget(gone)) {
-    return *std::move(problem);
-  }
-  return gone.size();
+  const auto stay = memory.forget(cases_of(gone, cases.value()));
+  return stay.has_value() ? Result(gone.size() - stay.value()) : stay;
 }
 
 }  // namespace saca::memory

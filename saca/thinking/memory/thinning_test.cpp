@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 
@@ -25,6 +26,10 @@ Case a_case(match::CaseId id, const world::Scene& scene, PolicyId best) {
   return one;
 }
 
+std::vector<MadeWith> made_with(const char* car) {
+  return {{"car", "car", car}, {"harm", "harm", "h"}};
+}
+
 /// The definition, looked up anew for each that goes: every pair is compared.
 std::vector<match::CaseId> by_brute_force(std::vector<Case> cases, std::size_t most) {
   std::vector<match::CaseId> gone;
@@ -38,7 +43,7 @@ std::vector<match::CaseId> by_brute_force(std::vector<Case> cases, std::size_t m
       }
       for (const Case& other : cases) {
         if (other.id == one->id || other.trust != Trust::trusted ||
-            as_good_as_best(other) != as_good_as_best(*one)) {
+            as_good_as_best(other) != as_good_as_best(*one) || other.made_with != one->made_with) {
           continue;
         }
         const match::Features a = match::features(one->scene);
@@ -68,6 +73,7 @@ TEST(Thinning, IsWhatComparingAllPairsAnewWouldDo) {
                       manoeuvre::all_policies.at(rng() % 3));
     one.trust = rng() % 5 == 0 ? Trust::unchecked : Trust::trusted;
     one.origin = rng() % 5 == 0 ? Origin::own : Origin::simulation;
+    one.made_with = made_with(rng() % 3 == 0 ? "a" : "b");
     cases.push_back(one);
   }
   for (const std::size_t most : {0U, 20U, 50U, 79U}) {
@@ -109,6 +115,28 @@ TEST(Thinning, KeepsWhatSpeaksForSomethingElse) {
   const std::vector<Case> cases{a_case(1, match::empty_road(), PolicyId::aeb),
                                 a_case(2, match::empty_road(), PolicyId::es_b_left)};
   EXPECT_TRUE(most_redundant(cases, 1).empty());
+}
+
+// It is not trusted by the other car, so it does not stand for the other's case.
+TEST(Thinning, KeepsWhatAnotherCarAloneStandsFor) {
+  std::vector<Case> cases{a_case(1, match::empty_road(), PolicyId::aeb),
+                          a_case(2, match::empty_road(), PolicyId::aeb)};
+  cases[0].made_with = made_with("a");
+  cases[1].made_with = made_with("b");
+  EXPECT_TRUE(most_redundant(cases, 1).empty());
+  cases[1].made_with = made_with("a");
+  cases[1].made_with.push_back({"atlas", "atlas", "another"});
+  EXPECT_EQ(most_redundant(cases, 1), std::vector<match::CaseId>{2});
+}
+
+TEST(Thinning, FindsTheCasesOfIds) {
+  const std::vector<Case> cases{a_case(1, match::empty_road(), PolicyId::aeb),
+                                a_case(4, match::empty_road(), PolicyId::aeb),
+                                a_case(5, match::empty_road(), PolicyId::aeb)};
+  const std::vector<Case> found = cases_of(std::array<match::CaseId, 3>{5, 1, 9}, cases);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].id, 1);
+  EXPECT_EQ(found[1].id, 5);
 }
 
 TEST(Thinning, KeepsWhatTheCarDroveWhatExpertsToldAndWhatIsInDoubt) {
