@@ -267,6 +267,20 @@ def test_what_is_not_trusted_is_rolled_out(cases, tmp_path):
     assert "tank" in one_error(saca("memory", "check", "--memory", "bank.db", "--car", "tank", cwd=tmp_path), BAD_INPUT)
 
 
+def test_what_another_car_trusts_stays_as_it_is(cases, tmp_path):
+    saca("memory", "import", cases, "--keep-trust", "--memory", "bank.db", cwd=tmp_path)
+    check = ("memory", "check", "--memory", "bank.db", "--draws", "4", "--car", "midsize_suv", "--json")
+    told = json.loads(saca(*check, cwd=tmp_path).stdout)
+    count = len(documents(cases)) - 1
+    assert told["added"] > 0 and told["confirmed"] == told["refuted"] == 0
+    assert told["added"] + told["open"] + told["refuted_for_this_car"] <= count
+    saca("memory", "export", "out.jsonl", "--memory", "bank.db", cwd=tmp_path)
+    _, *kept = documents(tmp_path / "out.jsonl")
+    assert kept[:count] == documents(cases)[1:] and len(kept) == count + told["added"]
+    assert all("happened" not in one["details"] and one["details"]["told"] for one in kept[count:])
+    assert json.loads(saca(*check, cwd=tmp_path).stdout)["added"] == 0
+
+
 def test_stats_tell_what_a_bank_has_seen(cases, tmp_path):
     assert saca("memory", "import", cases, "--keep-trust", "--memory", "bank.db", cwd=tmp_path).returncode == SUCCESS
     told = json.loads(saca("memory", "stats", "--memory", "bank.db", "--json", cwd=tmp_path).stdout)

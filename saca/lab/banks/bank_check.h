@@ -18,6 +18,9 @@ struct BankCheck {
   int confirmed = 0;  ///< trusted from now on
   int open = 0;       ///< as they were
   int refuted = 0;    ///< quarantined from now on
+  // Of those that another car trusts, which stay as they are:
+  int added = 0;             ///< confirmed; the bank has one for this car besides from now on
+  int refuted_for_this = 0;  ///< refuted for this car alone
 };
 
 /// Which cases are looked at besides those that this car does not trust yet.
@@ -32,14 +35,16 @@ struct BankCheckOptions {
   long_work::ProgressDisplay display = long_work::ProgressDisplay::shown;
 };
 
-/// Which of a bank's cases are to be checked.
+/// Which of a bank's cases are to be checked. Of what another car trusts those are left out that
+/// the bank has for this car already.
 [[nodiscard]] std::vector<memory::Case> cases_to_check(std::vector<memory::Case> cases,
                                                        const CaseTools& tools,
                                                        Quarantined quarantined);
 
 /// Rolls out what is not trusted (case_check.h) and keeps in the bank what is known from now on,
 /// with progress on the error stream. It ends early at an interrupt; what was worked out is kept.
-/// A case that another process has changed meanwhile stays as it is.
+/// A case that another process has changed meanwhile stays as it is. So does a case that another
+/// car trusts, whatever comes of it: where it is confirmed, one for this car is added in the end.
 /// @return  what the bank could not do
 [[nodiscard]] Result<BankCheck> check(ReadBank& bank, const CaseTools& tools,
                                       const BankCheckOptions& options);

@@ -88,14 +88,56 @@ TEST_F(BankCheckTest, WhatThisCarTrustsIsNotCheckedButAnotherCarsIs) {
   EXPECT_EQ(cases_to_check(all, tools_, Quarantined::checked_too).size(), 3U);
 }
 
+// What one car has found out is of no less worth to it because another goes otherwise.
+TEST_F(BankCheckTest, LeavesWhatAnotherCarTrustsAndAddsOneOfItsOwn) {
+  std::vector theirs{right_, wrong_};
+  for (memory::Case& one : theirs) {
+    one.trust = Trust::trusted;
+    one.origin = memory::Origin::own;
+    for (memory::MadeWith& thing : one.made_with) {
+      thing.digest = "another";
+    }
+  }
+  const std::string file = folder_.file("theirs");
+  ASSERT_TRUE(open_to_add(file).value().add_all(theirs).has_value());
+  const auto check_theirs = [&] {
+    ReadBank bank = read_bank(file).value();
+    return check(bank, tools_, {Quarantined::checked_too, 2, long_work::ProgressDisplay::silent})
+        .value();
+  };
+  const std::vector<memory::Case> before = read_bank(file).value().cases;
+  const BankCheck first = check_theirs();
+  EXPECT_EQ(first.added, 1);
+  EXPECT_EQ(first.refuted_for_this, 1);
+  EXPECT_EQ(first.confirmed + first.open + first.refuted, 0);
+  const std::vector<memory::Case> after = read_bank(file).value().cases;
+  ASSERT_EQ(after.size(), 3U);
+  EXPECT_EQ(memory::to_json(after[0]), memory::to_json(before[0])) << "with what happened";
+  EXPECT_EQ(memory::to_json(after[1]), memory::to_json(before[1])) << "still trusted by that car";
+  EXPECT_EQ(after[2].source, right_.source);
+  EXPECT_EQ(after[2].trust, Trust::trusted);
+  EXPECT_EQ(after[2].made_with, tools_.made_with);
+  EXPECT_TRUE(after[2].told);
+  EXPECT_FALSE(after[2].happened) << "that was another car";
+  EXPECT_EQ(after[2].origin, memory::Origin::simulation) << "this car has not driven it";
+  EXPECT_EQ(check_theirs().added, 0) << "it has one already";
+  EXPECT_EQ(read_bank(file).value().cases.size(), 3U);
+}
+
 TEST(BankCheck, IsToldToProgramsAndPeople) {
   const BankCheck check{.bank = "bank", .confirmed = 4, .open = 2, .refuted = 1};
   EXPECT_EQ(json_of(check, "small_fwd_car"),
             nlohmann::json::parse(R"({"schema": "saca.memory_check/1", "file": "bank",
-                "car": "small_fwd_car", "confirmed": 4, "open": 2, "refuted": 1})"));
+                "car": "small_fwd_car", "confirmed": 4, "open": 2, "refuted": 1,
+                "added": 0, "refuted_for_this_car": 0})"));
   EXPECT_EQ(text_of(check),
             "bank: 4 cases confirmed and trusted, 2 stay as they were, 1 refuted and "
             "quarantined\n");
+  EXPECT_EQ(
+      text_of(BankCheck{.bank = "bank", .open = 2, .added = 3, .refuted_for_this = 1}),
+      "bank: 0 cases confirmed and trusted, 2 stay as they were, 0 refuted and quarantined; of "
+      "those that another car trusts, which stay, 3 are confirmed and added for this car, 1 "
+      "refuted for it\n");
 }
 
 }  // namespace

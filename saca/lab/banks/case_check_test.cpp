@@ -62,6 +62,14 @@ TEST_F(CaseCheckTest, ConfirmsAnExpertWhoIsRight) {
   EXPECT_EQ(checked.made_with, made_with_);
 }
 
+// Else it would count as an encounter in which nobody was harmed.
+TEST_F(CaseCheckTest, LeavesAnExpertsWordHearsay) {
+  memory::Case word = said(PolicyId::es_b_left);
+  word.origin = memory::Origin::expert;
+  ASSERT_TRUE(memory::is_hearsay(word));
+  EXPECT_TRUE(memory::is_hearsay(check(word).value()));
+}
+
 TEST_F(CaseCheckTest, LeavesOpenWhatIsNoWorseThanBraking) {
   EXPECT_FALSE(check(said(PolicyId::aeb)).has_value());
 }
