@@ -1,5 +1,7 @@
 """Going through encounters one after the other, and remembering them."""
+import fcntl
 import json
+import os
 import pathlib
 import shutil
 import sys
@@ -7,7 +9,7 @@ import sys
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, ROOT, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, ROOT, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
 
 COUNT, SEEDS = 6, 2
 COMMAND = ("learn", "balanced", "--count", COUNT, "--seeds", SEEDS, "--empty-memory", "--lies", 0.5)
@@ -74,6 +76,20 @@ def test_what_was_begun_otherwise_stays_as_it_was(taught, tmp_path):
     told = one_error(saca(*COMMAND[:-1], 0.1, "-o", folder / "way", cwd=tmp_path), BAD_INPUT)
     assert "episodes.journal" in told
     assert verified(folder, "way/seed-1/learning.sqlite") == before
+
+
+def test_a_folder_in_which_another_program_learns_is_refused(taught, tmp_path):
+    folder, told = taught
+    journal = (folder / "way/episodes.journal").read_bytes()
+    before = verified(folder, "way/seed-1/learning.sqlite")
+    held = os.open(folder / "way", os.O_RDONLY)
+    fcntl.flock(held, fcntl.LOCK_EX)  # as the other program does for as long as it learns
+    said = one_error(saca(*COMMAND, "-o", folder / "way", cwd=tmp_path), CANNOT_WRITE)
+    assert str(folder / "way") in said and "another program" in said
+    assert (folder / "way/episodes.journal").read_bytes() == journal
+    assert verified(folder, "way/seed-1/learning.sqlite") == before
+    os.close(held)
+    assert figures(saca(*COMMAND, "-o", folder / "way", "--json", cwd=tmp_path)) == told
 
 
 def test_what_cannot_be_done_is_refused(tmp_path):

@@ -40,8 +40,9 @@ void add_learner(json& out, const std::string& place, const std::vector<Episodes
   out[place + "from_memory"] = thinking.from_memory;
   out[place + "asked_model"] = thinking.asked;
   out[place + "cases"] = eval::mean_size(all.back(), static_cast<Learner>(learner));
-  out[place + "refuted"] = eval::count_episodes(
-      all, [&](const Episode& one) { return one.refuted.at(learner).has_value(); });
+  out[place + "refuted"] = eval::count_episodes(all, [&](const Episode& one) {
+    return one.row.fault.empty() && one.refuted.at(learner).has_value();
+  });
 }
 
 }  // namespace

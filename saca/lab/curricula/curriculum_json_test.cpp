@@ -37,6 +37,9 @@ TEST(CurriculumJson, OnlyWhoRemembersHasCases) {
   EXPECT_EQ(out["learn.made.learning.asked_model"], 2);
   EXPECT_EQ(out["learn.made.learning.refuted"], 1);
   EXPECT_EQ(out["learn.made.frozen.refuted"], 0);
+  all[1].of[0].row.fault = "a method threw";
+  EXPECT_EQ(json_of(all, "made")["learn.made.learning.refuted"], 0)
+      << "it is left out, and not learnt";
   EXPECT_FALSE(out.contains("learn.made.aeb.cases"));
   EXPECT_FALSE(out.contains("learn.made.drawn.forecasts"));
 }

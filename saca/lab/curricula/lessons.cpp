@@ -7,6 +7,8 @@
 #include "saca/base/core/journal.h"
 #include "saca/lab/banks/bank_files.h"
 #include "saca/lab/curricula/school.h"
+#include "saca/lab/long_work/folder_hold.h"
+#include "saca/lab/long_work/output_file.h"
 
 namespace saca::curricula {
 
@@ -91,6 +93,16 @@ Result<std::optional<std::vector<eval::Episodes>>> taught(const Installation& he
                                                           Lessons& lessons,
                                                           const LearnRequest& request) {
   const SchoolJournal journal = journal_of(here, lessons, request);
+  if (auto problem = long_work::make_folder_of(journal.file)) {
+    return *std::move(problem);
+  }
+  const auto hold = long_work::FolderHold::unless_held(journal.file.parent_path());
+  if (!hold) {
+    return Error{Error::Code::unwritable,
+                 request.folder +
+                     ": another program is learning there; wait for it, or name "
+                     "another folder by --output"};
+  }
   // Banks are replaced only where the journal is of this very work.
   if (const auto mine = Journal::open(journal.file, journal.title); !mine.has_value()) {
     return mine.error();

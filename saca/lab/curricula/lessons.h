@@ -34,8 +34,10 @@ struct Lessons {
 /// Where the journal of these lessons lies: in the request's folder.
 [[nodiscard]] std::filesystem::path journal_place(const LearnRequest& request);
 
-/// Goes through all lessons, with progress on the error stream, from where the journal ends on.
-/// @return  nullopt: interrupted
+/// Goes through all lessons, with progress on the error stream, from where the journal ends on. The
+/// request's folder is held meanwhile (long_work::FolderHold): whoever else would replace its banks
+/// is refused.
+/// @return  nullopt: interrupted; Error::Code::unwritable where somebody else holds the folder
 [[nodiscard]] Result<std::optional<std::vector<eval::Episodes>>> taught(
     const installation::Installation& here, Lessons& lessons, const LearnRequest& request);
 

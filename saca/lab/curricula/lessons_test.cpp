@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "saca/base/core/file.h"
 #include "saca/lab/installation/here_for_test.h"
+#include "saca/lab/long_work/folder_hold.h"
 
 namespace saca::curricula::lessons_test {
 namespace {
@@ -53,6 +55,22 @@ TEST_F(LessonsTest, TheJournalOfOtherLessonsIsRefused) {
   LearnRequest other = request_;
   other.from.seed = 7;
   EXPECT_THAT(taught(here_, lessons, other).error().message, HasSubstr("episodes.journal"));
+}
+
+// Two programs would replace each other's banks and journal.
+TEST_F(LessonsTest, AFolderInWhichSomebodyLearnsIsRefused) {
+  Lessons lessons = std::move(open_lessons(here_, request_)).value();
+  std::optional<long_work::FolderHold> other = long_work::FolderHold::unless_held(request_.folder);
+  ASSERT_TRUE(other.has_value());
+  const auto refused = taught(here_, lessons, request_);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Error::Code::unwritable);
+  EXPECT_THAT(refused.error().message, HasSubstr(request_.folder));
+  EXPECT_TRUE(fs::is_empty(request_.folder)) << "nothing was touched";
+  other.reset();
+  EXPECT_TRUE(taught(here_, lessons, request_).has_value());
+  EXPECT_TRUE(long_work::FolderHold::unless_held(request_.folder).has_value())
+      << "it was given back";
 }
 
 TEST_F(LessonsTest, ABeginningIsTheShippedCasesUnlessAnotherIsNamed) {

@@ -111,15 +111,18 @@ std::optional<match::CaseId> refuted_case(const Record& record) {
              : std::nullopt;
 }
 
+std::optional<Error> quarantine(memory::Store& memory, match::CaseId id) {
+  return memory.change(id, [](memory::Case& wrong) {
+    wrong.trust = memory::Trust::quarantined;
+    return true;
+  });
+}
+
 Result<memory::LearningResult> learn(memory::Store& memory, const memory::Case& one,
                                      const std::optional<match::CaseId>& refuted,
                                      std::size_t bound) {
   if (refuted) {
-    const auto quarantine = [](memory::Case& wrong) {
-      wrong.trust = memory::Trust::quarantined;
-      return true;
-    };
-    if (auto error = memory.change(*refuted, quarantine)) {
+    if (auto error = quarantine(memory, *refuted)) {
       return *std::move(error);
     }
   }

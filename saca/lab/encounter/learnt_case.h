@@ -56,6 +56,10 @@ struct Trigger {
 /// @param record  with a decision and its hindsight
 [[nodiscard]] std::optional<match::CaseId> refuted_case(const Record& record);
 
+/// From now on nobody asks this case, unless a check finds that it holds.
+/// @return  what memory could not do; nothing where somebody has deleted it
+[[nodiscard]] std::optional<Error> quarantine(memory::Store& memory, match::CaseId id);
+
 /// Memory learns an encounter: its case is added or merged, and a case that it refutes is
 /// quarantined. A bank in a file is kept within a bound (memory::keep_within); one on a server
 /// belongs to many, who thin it when they want to.

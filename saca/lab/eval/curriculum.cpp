@@ -268,12 +268,19 @@ Episode Curriculum::play(const SuiteEncounter& encounter) {
 }
 
 std::optional<Error> Curriculum::learn(const Episode& episode) {
-  if (!episode.one) {
+  if (!episode.row.fault.empty()) {
     return std::nullopt;
   }
   for (const Learner who : {Learner::learning, Learner::poisoned}) {
-    const auto learnt =
-        encounter::learn(of(who), taught(episode, who), episode.refuted.at(index(who)));
+    const std::optional<match::CaseId>& refuted = episode.refuted.at(index(who));
+    if (!episode.one) {
+      auto problem = refuted ? encounter::quarantine(of(who), *refuted) : std::nullopt;
+      if (problem) {
+        return problem;
+      }
+      continue;
+    }
+    const auto learnt = encounter::learn(of(who), taught(episode, who), refuted);
     if (!learnt.has_value()) {
       return learnt.error();
     }

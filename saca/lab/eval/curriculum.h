@@ -87,7 +87,8 @@ class Curriculum {
   /// learnt until now. Nothing is learnt of it yet.
   [[nodiscard]] Episode play(const SuiteEncounter& encounter);
 
-  /// The memories learn it, each by what it did itself.
+  /// The memories learn it, each by what it did itself; where there is nothing to be learnt, they
+  /// quarantine what it refutes all the same. Of an episode with a fault they learn nothing.
   /// @return  what they could not do
   [[nodiscard]] std::optional<Error> learn(const Episode& episode);
 

@@ -8,6 +8,7 @@
 
 #include "saca/base/formats/json_text.h"
 #include "saca/lab/eval/scenes_for_test.h"
+#include "saca/onboard/match/example_scenes.h"
 #include "saca/onboard/match/similarity.h"
 #include "saca/thinking/intent/shipped_model.h"
 #include "saca/thinking/memory/experience.h"
@@ -159,6 +160,27 @@ TEST_F(CurriculumTest, WithoutATriggerThereIsNothingToBeLearnt) {
   EXPECT_FALSE(episode.one.has_value());
   EXPECT_EQ(curriculum.learn(episode), std::nullopt);
   EXPECT_THAT(curriculum.sizes(), testing::Each(0));
+}
+
+// It has done harm, whether or not the trigger fires where nobody acts.
+TEST_F(CurriculumTest, QuarantinesWhatIsRefutedWhereThereIsNothingToBeLearnt) {
+  memory::Case known;
+  known.scene = match::empty_road();
+  Curriculum curriculum = begin(0.0, {known});
+  Episode episode;
+  episode.refuted = {1, 1, std::nullopt};
+  const auto trust_of = [&](const char* file) {
+    memory::Store bank = memory::Store::open_existing((folder_ / file).string()).value();
+    return bank.find(1).value().value().trust;
+  };
+  episode.row.fault = "a method threw";
+  EXPECT_EQ(curriculum.learn(episode), std::nullopt);
+  EXPECT_EQ(trust_of("learning.sqlite"), memory::Trust::trusted) << "it is left out";
+  episode.row.fault.clear();
+  EXPECT_EQ(curriculum.learn(episode), std::nullopt);
+  EXPECT_EQ(trust_of("learning.sqlite"), memory::Trust::quarantined);
+  EXPECT_EQ(trust_of("poisoned.sqlite"), memory::Trust::trusted);
+  EXPECT_EQ(trust_of("frozen.sqlite"), memory::Trust::trusted) << "it learns nothing";
 }
 
 // Half of the encounters are their twins, drawn by seed and number: the same ones again.

@@ -6,8 +6,8 @@
 #include "saca/base/core/clock.h"
 #include "saca/base/core/parallel.h"
 #include "saca/lab/levelset/solve.h"
+#include "saca/lab/long_work/folder_hold.h"
 #include "saca/lab/long_work/output_file.h"
-#include "saca/lab/reach_study/folder_hold.h"
 #include "saca/onboard/manoeuvre/ego.h"
 #include "saca/thinking/danger/car_limits.h"
 #include "saca/thinking/danger/value_table.h"
@@ -60,7 +60,7 @@ Result<ReadyTable> ready_table(const danger::DangerCase& wanted, const TableStor
   }
   auto not_kept = long_work::make_folder_of(file);
   const fs::path folder = file.parent_path();
-  const FolderHold hold(folder, [&] {
+  const long_work::FolderHold hold(folder, [&] {
     store.notice(folder.string() + ": another program makes tables there; this one waits for it");
   });
   if (auto kept = kept_table(file, wanted)) {  // while this program waited

@@ -1,10 +1,10 @@
-#include "saca/lab/reach_study/folder_hold.h"
+#include "saca/lab/long_work/folder_hold.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
-namespace saca::reach_study::folder_hold_test {
+namespace saca::long_work::folder_hold_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,7 +39,18 @@ TEST_F(FolderHolds, AHeldFolderIsWaitedForAndThatIsTold) {
   EXPECT_FALSE(other.has_value());
 }
 
+TEST_F(FolderHolds, AHeldFolderIsRefusedWhereNobodyWaits) {
+  std::optional<FolderHold> first = FolderHold::unless_held(folder_);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_FALSE(FolderHold::unless_held(folder_).has_value());
+  first.reset();
+  EXPECT_TRUE(FolderHold::unless_held(folder_).has_value());
+  const FolderHold other(folder_, [] { ADD_FAILURE() << "it is free"; });
+  EXPECT_FALSE(FolderHold::unless_held(folder_).has_value());
+}
+
 TEST_F(FolderHolds, WhatIsNoFolderIsNotHeld) {
+  EXPECT_TRUE(FolderHold::unless_held(folder_ / "none").has_value());
   int waits = 0;
   const FolderHold first(folder_ / "none", [&] { ++waits; });
   const FolderHold second(folder_ / "none", [&] { ++waits; });
@@ -47,4 +58,4 @@ TEST_F(FolderHolds, WhatIsNoFolderIsNotHeld) {
 }
 
 }  // namespace
-}  // namespace saca::reach_study::folder_hold_test
+}  // namespace saca::long_work::folder_hold_test
