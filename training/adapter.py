@@ -3,12 +3,13 @@
 PyTorch keeps both halves of a head's rotary pairs apart, llama.cpp side by side: the rows of what a head's query
 and key are made with are put into its order.
 """
-import hashlib
 import pathlib
 
 import gguf
 import numpy as np
 import torch
+
+from kept import sha256_of
 
 NAMES = {
     "self_attn.q_proj": "attn_q",
@@ -32,10 +33,6 @@ def torch_rows(weights, heads):
     """Undoes rotary_rows."""
     rows = weights.shape[0]
     return weights.reshape(heads, rows // heads // 2, 2, -1).swapaxes(1, 2).reshape(rows, -1)
-
-
-def sha256_of(path):
-    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
 
 
 def tensors_of(state, heads, key_heads):

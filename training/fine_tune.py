@@ -5,8 +5,8 @@ usage: fine_tune.py SETS BASE OUTPUT [options]
   BASE    the model's GGUF file; its weights stay as they are
   OUTPUT  folder for adapter.gguf, curve.csv, and what resuming takes
 
-Can be interrupted at any time: run again, it goes on from the last kept step. Same seed, sets and threads, same
-adapter.
+Can be interrupted at any time: run again, it goes on from the last kept step. What was kept with other settings, or
+of sets, weights or an adapter to begin with of other contents, is refused. Same seed, sets and threads, same adapter.
 """
 import argparse
 import csv
@@ -24,6 +24,7 @@ import transformers
 import adapter
 import batch as batches
 import examples
+import kept
 from examples import Problem
 
 MODULES = [name.split(".")[1] for name in adapter.NAMES]
@@ -163,6 +164,7 @@ class Training:
         self.judged = self.read("calibration.jsonl")
         if not self.train or not self.judged:
             raise Problem(f"{given.sets}: want examples to train with and to judge by, got {len(self.train)} and {len(self.judged)}")
+        self.contents = kept.contents([given.sets, *given.also], [given.base, *([given.begin_with] if given.begin_with else [])])
         self.optimizer = torch.optim.AdamW([p for p in self.model.parameters() if p.requires_grad], lr=given.rate)
         self.curve = []  # step, tokens so far, loss, judged loss or nothing, seconds
         self.tokens = 0
@@ -210,7 +212,7 @@ class Training:
     def keep(self):
         """All that going on takes, whole or not at all."""
         place = self.given.output / "kept.pt"
-        torch.save({"settings": self.settings, "adapter": self.state(), "optimizer": self.optimizer.state_dict(), "curve": self.curve,
+        torch.save({"settings": {**self.settings, **self.contents}, "adapter": self.state(), "optimizer": self.optimizer.state_dict(), "curve": self.curve,
                     "tokens": self.tokens, "seconds": self.seconds}, f"{place}.part")
         pathlib.Path(f"{place}.part").rename(place)
 
@@ -220,15 +222,13 @@ class Training:
         if not place.exists():
             return 0
         try:
-            kept = torch.load(place, weights_only=True)
+            before = torch.load(place, weights_only=True)
         except Exception as error:  # of several kinds, none of which the library names
             raise Problem(f"{place}: want a training that was kept: {error}; remove it to begin anew") from None
-        if kept["settings"] != self.settings:
-            differ = sorted(k for k in self.settings if kept["settings"].get(k) != self.settings[k])
-            raise Problem(f"{place}: is of other settings ({', '.join(differ)}); choose another folder, or remove it to begin anew")
-        peft.set_peft_model_state_dict(self.model, kept["adapter"])
-        self.optimizer.load_state_dict(kept["optimizer"])
-        self.curve, self.tokens, self.seconds = kept["curve"], kept["tokens"], kept["seconds"]
+        kept.refuse_other(place, before["settings"], {**self.settings, **self.contents})
+        peft.set_peft_model_state_dict(self.model, before["adapter"])
+        self.optimizer.load_state_dict(before["optimizer"])
+        self.curve, self.tokens, self.seconds = before["curve"], before["tokens"], before["seconds"]
         return len(self.curve)
 
     def write(self):
@@ -241,6 +241,7 @@ class Training:
         told = {"schema": "saca.fine_tuning/1", **self.settings, "sets": self.given.sets.name, "base": self.given.base.name,
                 "also": " ".join(folder.name for folder in self.given.also),
                 "begin_with": self.given.begin_with.parent.name if self.given.begin_with else "",
+                "sha256": {"/".join(pathlib.Path(path).parts[-2:]): digest for path, digest in self.contents.items()},
                 "examples": len(self.train), "tokens": self.tokens, "seconds": round(self.seconds),
                 "calibration_loss": next((row[3] for row in reversed(self.curve) if row[3] is not None), None)}
         (self.given.output / "training.json").write_text(json.dumps(told, indent=2) + "\n")

@@ -2,7 +2,8 @@
 # Teaches the shipped language model what an expert would choose and say, from raw crash records to an adapter. In a
 # Python environment of its own (build/training, 5.6 GB).
 # usage: training/run.sh all FARS...         records to cases, to sets, to models/language/; hours on two cores. Can be
-#                                            interrupted: the same command goes on where it was. `make model` merges it
+#                                            interrupted: the same command goes on where it was, unless the sets have
+#                                            other contents by then: that is refused. `make model` merges it
 #        training/run.sh tune SETS OUTPUT [--steps N] [...]     the training alone (fine_tune.py --help)
 #        training/run.sh agree REPLIES SYSTEM ADAPTER [...]     whether llama.cpp answers as PyTorch does (agreement.py)
 #        training/run.sh setup               makes the environment only

@@ -17,6 +17,7 @@ PYTHON = ROOT / "build/training/bin/python"
 sys.path.insert(0, str(TRAINING))
 import curve  # noqa: E402
 import examples  # noqa: E402
+import kept  # noqa: E402
 
 needs_environment = pytest.mark.skipif(not PYTHON.exists(), reason="PyTorch is not installed (training/run.sh setup)")
 HEADER = {"schema": "saca.reply_examples/1", "examples": 1}
@@ -63,6 +64,38 @@ def test_bad_sets_are_refused(tmp_path, documents, message):
         examples.read_set(write(tmp_path / "train.jsonl", *documents))
     with pytest.raises(examples.Problem, match="none.jsonl: cannot read"):
         examples.read_set(tmp_path / "none.jsonl")
+
+
+def kept_of(tmp_path):
+    """What a training with one folder of sets tells of itself."""
+    return {"steps": "400", **kept.contents([tmp_path / "sets"], [tmp_path / "base.gguf"])}
+
+
+def test_a_kept_training_goes_on_with_the_same_contents_only(tmp_path):
+    (tmp_path / "sets").mkdir()
+    for name in ("sets/system.txt", "sets/train.jsonl", "sets/calibration.jsonl", "base.gguf"):
+        (tmp_path / name).write_text("first")
+    before = kept_of(tmp_path)
+    kept.refuse_other("kept.pt", before, kept_of(tmp_path))
+    for name in ("sets/system.txt", "sets/train.jsonl", "sets/calibration.jsonl", "base.gguf"):
+        (tmp_path / name).write_text("second")
+        with pytest.raises(examples.Problem) as problem:
+            kept.refuse_other("kept.pt", before, kept_of(tmp_path))
+        assert str(problem.value) == (f"kept.pt: is of other settings or of files with other contents ({tmp_path / name}); "
+                                      "choose another folder, or remove it to begin anew")
+        (tmp_path / name).write_text("first")
+    with pytest.raises(examples.Problem, match="other contents .steps.;"):
+        kept.refuse_other("kept.pt", dict(before, steps="20"), kept_of(tmp_path))
+    with pytest.raises(examples.Problem, match="other contents .rank.;"):
+        kept.refuse_other("kept.pt", dict(before, rank="8"), kept_of(tmp_path))
+
+
+def test_a_training_kept_before_contents_were_is_refused(tmp_path):
+    (tmp_path / "sets").mkdir()
+    for name in ("sets/system.txt", "sets/train.jsonl", "sets/calibration.jsonl", "base.gguf"):
+        (tmp_path / name).write_text("first")
+    with pytest.raises(examples.Problem, match="base.gguf, .*system.txt, .*train.jsonl.; choose another folder"):
+        kept.refuse_other("kept.pt", {"steps": "400"}, kept_of(tmp_path))
 
 
 def test_each_branch_is_the_reply_that_the_engine_asks_for():
@@ -271,6 +304,29 @@ print(json.dumps({"alpha": alpha, "same": sorted(back) == sorted(state) and all(
 """, tmp_path)
     assert told["alpha"] == 8 and told["same"] and told["begun"]
     assert "got one of other weights" in told["refused"][0] and "want --alpha 8, got 16" in told["refused"][1] and "none.gguf" in told["refused"][2]
+
+
+@needs_environment
+def test_going_on_with_other_contents_is_refused(tmp_path):
+    told = in_environment(TINY + """
+import argparse, pathlib
+place = pathlib.Path(sys.argv[1])
+def training(contents):
+    made = object.__new__(fine_tune.Training)
+    made.given, made.model = argparse.Namespace(output=place), model
+    made.settings, made.contents = {"steps": "2"}, contents
+    made.optimizer = torch.optim.AdamW([p for p in model.parameters() if p.requires_grad])
+    made.curve, made.tokens, made.seconds = [[1, 10, 0.5, None, 1.0]], 10, 1.0
+    return made
+training({"train.jsonl": "abc"}).keep()
+gone_on = training({"train.jsonl": "abc"}).go_on()
+try:
+    refused = training({"train.jsonl": "def"}).go_on()
+except fine_tune.Problem as problem:
+    refused = str(problem)
+print(json.dumps({"gone_on": gone_on, "refused": refused}))
+""", tmp_path)
+    assert told["gone_on"] == 1 and "kept.pt: is of other settings or of files with other contents (train.jsonl);" in told["refused"]
 
 
 @needs_environment
