@@ -74,6 +74,12 @@ struct Pair {
   const ggml_tensor* b = nullptr;  ///< [m, r]
 };
 
+/// Whether ggml has its numbers as floats: of integers and doubles it does not.
+bool has_values(const ggml_tensor& tensor) {
+  return tensor.type == GGML_TYPE_F32 || ggml_get_type_traits(tensor.type)->to_float != nullptr;
+}
+
+/// @param tensor  that has_values()
 std::vector<float> values(const ggml_tensor& tensor) {
   std::vector<float> all(static_cast<std::size_t>(ggml_nelements(&tensor)));
   if (tensor.type == GGML_TYPE_F32) {
@@ -91,12 +97,17 @@ std::string shape(const ggml_tensor* tensor) {
                            : std::to_string(tensor->ne[1]) + " x " + std::to_string(tensor->ne[0]);
 }
 
-/// The adapter's pairs by the name of the matrix that they belong to.
+/// The adapter's pairs by the name of the matrix that they belong to, all of which have values.
 Result<std::map<std::string, Pair>> pairs_of(const GgufFile& adapter, const GgufFile& base,
                                              const std::string& path) {
   std::map<std::string, Pair> pairs;
   for (const ggml_tensor* one : adapter.tensors()) {
     const std::string_view name = one->name;
+    if (!has_values(*one)) {
+      return Error{Error::Code::malformed, path + ": " + one->name +
+                                               ": want floating-point or quantised numbers, got " +
+                                               ggml_type_name(one->type)};
+    }
     if (name.ends_with(first_half)) {
       pairs[std::string(name.substr(0, name.size() - first_half.size()))].a = one;
     } else if (name.ends_with(second_half)) {
@@ -115,6 +126,12 @@ Result<std::map<std::string, Pair>> pairs_of(const GgufFile& adapter, const Gguf
       return Error{Error::Code::malformed,
                    path + ": " + name + ": want r x n and m x r for an m x n matrix of the base, " +
                        "got " + shape(pair.a) + " and " + shape(pair.b) + " for " + shape(of)};
+    }
+    if (!has_values(*of)) {
+      return Error{Error::Code::malformed,
+                   path + ": " + name +
+                       ": want a matrix of floating-point or quantised numbers in " +
+                       "the base, got " + ggml_type_name(of->type)};
     }
   }
   if (pairs.empty()) {

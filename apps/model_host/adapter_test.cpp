@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <llama.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -53,6 +54,8 @@ class AdapterTest : public testing::Test {
       ggml_set_name(tensor, one.name.c_str());
       if (tensor->type == GGML_TYPE_F32) {
         std::copy(one.values.begin(), one.values.end(), static_cast<float*>(tensor->data));
+      } else if (ggml_get_type_traits(type)->to_float == nullptr) {
+        std::memset(tensor->data, 0, ggml_nbytes(tensor));  // what it holds is not looked at
       } else {
         ggml_quantize_chunk(type, one.values.data(), tensor->data, 0, one.rows, one.columns,
                             nullptr);
@@ -161,6 +164,29 @@ TEST_F(AdapterTest, SaysWhatIsWrong) {
                            gguf_set_val_str(file, "saca.base.sha256", "def");
                          }),
               HasSubstr("(sha256 abc), got one of `def`"));
+}
+
+TEST_F(AdapterTest, NumbersThatAreNoFloatsAreRefused) {
+  const std::vector<Matrix> base{{"w", 2, 3, {1, 2, 3, 4, 5, 6}}};
+  const std::vector<Matrix> pair{{"w.lora_a", 2, 3, {1, 0, 2, 0, 1, 0}},
+                                 {"w.lora_b", 2, 2, {1, 3, -1, 0}}};
+  for (const ggml_type type : {GGML_TYPE_I8, GGML_TYPE_I32, GGML_TYPE_F64}) {
+    const auto problem =
+        merge_adapter(write("base.gguf", base), "abc",
+                      write("bad.gguf", pair, describe_adapter, type), path("out.gguf"));
+    ASSERT_TRUE(problem);
+    EXPECT_EQ(problem->code, Error::Code::malformed);
+    EXPECT_EQ(problem->message, path("bad.gguf") +
+                                    ": w.lora_a: want floating-point or quantised numbers, got " +
+                                    ggml_type_name(type));
+    EXPECT_FALSE(std::filesystem::exists(path("out.gguf")));
+  }
+  const auto of_base =
+      merge_adapter(write("base.gguf", base, {}, GGML_TYPE_I8), "abc",
+                    write("adapter.gguf", pair, describe_adapter), path("out.gguf"));
+  ASSERT_TRUE(of_base);
+  EXPECT_THAT(of_base->message, HasSubstr("w: want a matrix of floating-point or quantised numbers "
+                                          "in the base, got i8"));
 }
 
 TEST_F(AdapterTest, FilesThatAreNoneAreNamed) {

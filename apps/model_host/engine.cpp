@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "free_cores.h"
+#include "recent_cost.h"
 #include "saca/base/core/processor_time.h"
 #include "thread_choice.h"
 #include "token_choice.h"
@@ -95,17 +96,6 @@ class Batch {
 
  private:
   llama_batch batch_;
-};
-
-// Largest cost of the last steps, forgotten slowly [s].
-class RecentCost {
- public:
-  void add(double cost) { cost_ = std::max(cost, forgetting * cost_); }
-  [[nodiscard]] double get() const { return cost_; }
-
- private:
-  static constexpr double forgetting = 0.8;  // half forgotten after three steps
-  double cost_ = 0.0;
 };
 
 // One scene while it is thought about.
@@ -650,6 +640,10 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.threads.take_all();
+  // Once a step or an answer stalled for longer than an ask has, none would be tried again.
+  s.step_cost.fade();
+  s.run_cost.fade();
+  s.answer_cost.fade();
   return s.think(std::move(tasks).value(), deadline, form.max_tokens, clock, events);
 }
 
