@@ -374,7 +374,10 @@ void ThinkingPlane::take_replies(const OpenQuestion& question,
                                  const std::vector<language_model::Reply>& replies) {
   for (std::size_t k = 0; k < replies.size() && k < question.which.size(); ++k) {
     Preview& preview = previews_[question.which[k]];
-    preview.unheard = false;
+    preview.unheard = replies[k].answers.empty() && !preview.plan;
+    if (preview.unheard) {
+      preview.missed = question.left;
+    }
     preview.reply.prompt_tokens = replies[k].prompt_tokens;
     if (!tools_.asking.reasoning) {
       continue;
@@ -398,7 +401,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
   for (const std::size_t i : which) {
     left = std::min(left, time_left(round, previews_[i].newest_scene));
   }
-  const OpenQuestion question{round, which, round.now()};
+  const OpenQuestion question{round, which, round.now(), left};
   tell(round, EventKind::ask,
        fmt::format("the model is asked about {} forecast{}, {:.1f} s left", which.size(),
                    which.size() == 1 ? "" : "s", left));

@@ -105,6 +105,7 @@ class ThinkingPlane {
     const Round& round;
     const std::vector<std::size_t>& which;  ///< indices into previews_
     double asked_at = 0.0;                  ///< [s]
+    double left = 0.0;                      ///< the time that the model had then [s]
   };
   /// What a round has to find plans for: indices into previews_.
   struct Pending {
@@ -146,6 +147,7 @@ class ThinkingPlane {
   /// Of these previews, as they are asked about.
   [[nodiscard]] language_model::Question write_question(const std::vector<std::size_t>& which);
   void hear(const OpenQuestion& question, const language_model::Progress& news);
+  /// Of whom there is no answer and no plan may be asked about again, where there is more time.
   void take_replies(const OpenQuestion& question,
                     const std::vector<language_model::Reply>& replies);
   /// Those of it that have no plan.

@@ -285,6 +285,39 @@ TEST_F(Thinking, IsAskedAgainAfterADeadlineOnlyWhereThereIsMoreTime) {
   EXPECT_EQ(model.num_asked(), 2);
 }
 
+// Two forecasts, the car ahead goes on or it brakes, are asked about in the time to the trigger of
+// the latter, which comes sooner. The former has no answer then, and more time left than that.
+TEST_F(Thinking, AsksAgainAboutAForecastThatHasNoAnswerAmongOthersThatHave) {
+  language_model::ScriptedModel model(
+      [](const std::string& prompt) {
+        return prompt.find(", brake 0.") != std::string::npos ? says(PolicyId::aes_left)
+                                                              : language_model::ScriptedReply{};
+      },
+      clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene scene = test::ego_at(20.0, manoeuvre::footprint(car()));
+  scene.ego_mass = car().mass;
+  scene.road.left_edge = 5.25;
+  scene.road.right_edge = -5.25;
+  scene.actors.push_back(test::car(1, {62.0, 0.0}, {6.0, 0.0}));
+  scene.actors.push_back(test::car(2, {160.0, 3.5}));
+  intent::Beliefs beliefs;
+  beliefs.push_back({});
+  beliefs.push_back({});
+  beliefs[0].at.fill({0.6, 0.0, 0.0, 0.4});
+  beliefs[1].at.fill({1.0, 0.0, 0.0, 0.0});
+  const auto asks_about = [&] {
+    const int before = model.num_asked();
+    thinking.think(scene, beliefs, clock_.now());
+    return model.num_asked() == before ? 0 : model.last_scenes().size();
+  };
+  ASSERT_EQ(asks_about(), 2U);
+  EXPECT_EQ(thinking.deadline_misses(), 0);
+  ASSERT_EQ(asks_about(), 1U);
+  EXPECT_EQ(model.last_scenes()[0].find(", brake 0."), std::string::npos);
+  EXPECT_EQ(asks_about(), 0U) << "as long before its trigger as the last time";
+}
+
 // Forecasts of one round that are alike are one, and the likeliest stands for both.
 TEST_F(Thinking, OfLikeForecastsTheLikeliestCounts) {
   Scene scene = wreck_ahead();
