@@ -3,11 +3,25 @@
 #include <algorithm>
 #include <array>
 
+#include "saca/base/world/cue.h"
+#include "saca/thinking/language_model/prompt.h"
 #include "saca/thinking/language_model/words.h"
 
 namespace saca::language_model {
 
-bool is_denied(std::string_view low) {
+std::string without_cues(std::string_view low) {
+  std::string rest(low);
+  for (std::size_t kind = 0; kind < world::num_cue_kinds; ++kind) {
+    const std::string_view cue = cue_text(static_cast<world::CueKind>(kind));
+    for (auto at = rest.find(cue); at != std::string::npos; at = rest.find(cue)) {
+      rest.erase(at, cue.size());
+    }
+  }
+  return rest;
+}
+
+bool is_denied(std::string_view text) {
+  const std::string low = without_cues(text);
   using Phrases = std::array<std::string_view, 9>;
   if (low.find("n't") != std::string_view::npos ||
       has_any(low, Phrases{"nothing", "nobody", "no one", "no longer", "never", "except", "unlike",
@@ -15,7 +29,7 @@ bool is_denied(std::string_view low) {
     return true;
   }
   for (auto at = find_phrase(low, "not"); at; at = find_phrase(low, "not", *at + 1)) {
-    const std::string_view rest = low.substr(*at + 3);
+    const std::string_view rest = std::string_view(low).substr(*at + 3);
     constexpr std::array<std::string_view, 6> known{" possible", " viable",  " clear",
                                                     " hit",      " collide", " strike"};
     if (std::none_of(known.begin(), known.end(),
@@ -42,6 +56,9 @@ std::optional<Claim> claim_of(std::string_view low) {
   }
   if (has_any(low, Phrases{"not clear", "no clear", "unclear", "clearly"})) {
     return std::nullopt;
+  }
+  if (has_any(low, std::array<std::string_view, 2>{"leaves the road", "leave the road"})) {
+    return has_phrase(low, "cannot leave") ? std::nullopt : std::optional(Claim::leaves);
   }
   const bool avoids =
       has_any(low, Phrases{"no contact", "no collision", "avoids", "without contact"});

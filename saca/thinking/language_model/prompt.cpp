@@ -563,4 +563,8 @@ bool is_line_of_ego(std::string_view line) {
   return line.starts_with(ego_name);
 }
 
+bool is_line_of_case(std::string_view line) {
+  return line.starts_with("A case ");
+}
+
 }  // namespace saca::language_model

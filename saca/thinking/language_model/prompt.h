@@ -87,8 +87,9 @@ constexpr double prompt_no_harm = 0.5e-3;
 /// What stands beyond an edge: "open ground", "kerb", "barrier" or "trees".
 [[nodiscard]] std::string_view beyond_text(world::Beyond beyond);
 
-/// Whether a line of a scene part is that policy's, or the ego's own.
+/// Whether a line of a scene part is that policy's, the ego's own, or that of the most alike case.
 [[nodiscard]] bool is_line_of(std::string_view line, manoeuvre::PolicyId policy);
 [[nodiscard]] bool is_line_of_ego(std::string_view line);
+[[nodiscard]] bool is_line_of_case(std::string_view line);
 
 }  // namespace saca::language_model

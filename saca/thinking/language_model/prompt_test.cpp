@@ -367,6 +367,8 @@ TEST(Prompt, LinesAreKnownByTheirPolicy) {
   }
   EXPECT_THAT(num, testing::ElementsAre(1, 1, 1, 1, 1, 0, 0, 1));  // drifts are refused
   EXPECT_EQ(of_ego, 1);
+  EXPECT_TRUE(is_line_of_case("A case 90 % alike: best in hindsight 3 ES-B-L, harm 0.032"));
+  EXPECT_FALSE(is_line_of_case("no case is alike"));
 }
 
 TEST(Prompt, WithoutRisksTheRestIsAsItWas) {

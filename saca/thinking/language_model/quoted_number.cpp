@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "saca/onboard/manoeuvre/plan.h"
 #include "saca/thinking/language_model/words.h"
 
 namespace saca::language_model {
@@ -70,6 +71,17 @@ bool begins_with_word(std::string_view text, std::string_view word) {
          (text.size() == word.size() || !is_word_char(text[word.size()]));
 }
 
+/// Whether a lone digit numbers a policy, anywhere in a line: "3 ES-B-L".
+bool numbers_a_policy(std::string_view text, std::size_t begin, std::size_t end) {
+  if (end != begin + 1 || end == text.size() || text[end] != ' ') {
+    return false;
+  }
+  return std::any_of(manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(),
+                     [rest = text.substr(end + 1)](manoeuvre::PolicyId policy) {
+                       return begins_with_word(rest, lowered(manoeuvre::name(policy)));
+                     });
+}
+
 /// @param rest  what follows the number
 std::string where_at(std::string_view rest, std::string_view unit) {
   constexpr std::array<std::string_view, 5> words{"ahead", "behind", "left", "right", "away"};
@@ -93,7 +105,7 @@ std::string where_at(std::string_view rest, std::string_view unit) {
 /// @param before  what precedes the number
 std::string of_what_at(std::string_view before) {
   // Of two that end alike the longer is first.
-  constexpr std::array<std::string_view, 12> words{"lane change left",
+  constexpr std::array<std::string_view, 14> words{"lane change left",
                                                    "lane change right",
                                                    "brake moving left",
                                                    "brake moving right",
@@ -104,6 +116,8 @@ std::string of_what_at(std::string_view before) {
                                                    "risk",
                                                    "harm",
                                                    "grip",
+                                                   "left edge",
+                                                   "right edge",
                                                    "edge"};
   const auto* const found = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
     return ends_with_word(before, word);
@@ -146,7 +160,7 @@ std::vector<QuotedNumber> quoted_numbers(std::string_view text) {
     const bool in_a_name = begin > 0 && is_word_char(text[begin - 1]);
     const bool in_a_list = choice_end != std::string_view::npos && i == begin + 1 &&
                            choice_end + joint_at(text.substr(choice_end)).size() == begin;
-    if (in_a_name || is_label(text, begin, i)) {
+    if (in_a_name || is_label(text, begin, i) || numbers_a_policy(text, begin, i)) {
       continue;
     }
     if (in_a_list || names_a_choice(text.substr(0, begin))) {

@@ -14,14 +14,15 @@ struct QuotedNumber {
   std::string unit;         ///< "m", "m/s", "s" or "%"; empty: none of these follows
   bool after_equals = false;
   std::string where;  ///< "ahead", "behind", "left", "right" or "away", if that follows at once
-  /// What it is of, if that stands right before it: "risk", "harm", "grip", "edge", or an intention
-  /// ("lane change left", "maintain") as the prompt calls them.
+  /// What it is of, if that stands right before it: "risk", "harm", "grip", "left edge", "right
+  /// edge", "edge", or an intention ("lane change left", "maintain") as the prompt calls them.
   std::string of_what;
 };
 
 /// The numbers of a text, in its order. Not among them: digits within a name ("car1"), labels at
-/// the start of a line ("1.", "2)", "0 AEB"), and what follows "policy", "action" or "Response to
-/// user:", a list of several as well: those name choices.
+/// the start of a line ("1.", "2)"), the digit right before a policy's name ("3 ES-B-L"; whether it
+/// is that policy's own, `Subject::misnumbered` says), and what follows "policy", "action" or
+/// "Response to user:", a list of several as well: those name choices.
 /// @param text  anything
 [[nodiscard]] std::vector<QuotedNumber> quoted_numbers(std::string_view text);
 

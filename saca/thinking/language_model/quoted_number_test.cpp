@@ -37,6 +37,13 @@ TEST(QuotedNumbers, AreNoNamesLabelsOrChoices) {
   EXPECT_EQ(listed("policy 1, 12 m away"), "12m ");  // two digits name no policy
 }
 
+TEST(QuotedNumbers, AreNotThoseOfPoliciesAnywhereInALine) {
+  EXPECT_EQ(listed("So 3 ES-B-L: as good as 1 aes-l"), "");
+  EXPECT_EQ(listed("the best is 8 T-D-R"), "");  // a wrong one is not judged here
+  EXPECT_EQ(listed("carried out 0 AEB, harm 0.072"), "0.072 ");
+  EXPECT_EQ(listed("by 12 AES-L, 1.3 AEB, 3 AEBs, 3 m"), "12 1.3 3 3m ");
+}
+
 TEST(QuotedNumbers, KnowWhereAndOfWhatTheyAre) {
   const auto told = [](std::string_view text) {
     std::string all;
@@ -50,6 +57,8 @@ TEST(QuotedNumbers, KnowWhereAndOfWhatTheyAre) {
   EXPECT_EQ(told("Lane change left 0.93, maintain 0.94, risk 0.5, brake moving right 0.1"),
             "lane change left| maintain| risk| brake moving right| ");
   EXPECT_EQ(told("harm 0.0125, 12 % likely"), "harm| | ");
+  EXPECT_EQ(told("left edge 5.2 m; right edge 1.7 m, an edge 3 m away"),
+            "left edge| right edge| edge|away ");
 }
 
 TEST(QuotedNumbers, SayWhatIsComputed) {

@@ -9,6 +9,7 @@
 #include "saca/thinking/language_model/conclusion.h"
 #include "saca/thinking/language_model/crowded_situation_for_test.h"
 #include "saca/thinking/language_model/expert.h"
+#include "saca/thinking/language_model/explanation.h"
 #include "saca/thinking/language_model/gbnf_for_test.h"
 #include "saca/thinking/language_model/left_is_open_for_test.h"
 #include "saca/thinking/language_model/prompt.h"
@@ -41,8 +42,8 @@ struct Asked {
   }
 };
 
-/// Every fourth scene sparse, the others crowded; in some, several policies harm alike; some have
-/// cues, or a case.
+/// Every fourth scene sparse, the others crowded; in some, several policies harm alike, or one
+/// leaves the road; some have cues, or a case.
 Asked asked(unsigned seed) {
   Asked one{.situation = seed % 4 == 0 ? left_is_open() : crowded_situation(seed),
             .nearest = {},
@@ -61,6 +62,14 @@ Asked asked(unsigned seed) {
   if (seed % 5 == 0) {
     one.situation.scene_at_trigger.cues.push_back({world::CueKind::parked_vans, {12.0, -3.5}});
   }
+  if (seed % 5 == 1) {
+    one.situation.scene_at_trigger.cues.push_back(
+        {world::CueKind::emergency_vehicle, {12.0, -3.5}});
+  }
+  if (seed % 7 == 3) {
+    one.situation.facts[2].outcome().contact->actor.reset();
+    one.situation.facts[2].outcome().contact->edge = collision::Side::right;
+  }
   one.prompt = scene_part(one.situation, one.nearest, 0.8);
   return one;
 }
@@ -74,6 +83,8 @@ void expect_true(const std::string& text, const Asked& about) {
   for (const FalseStatement& one : truth.wrong) {
     ADD_FAILURE() << one.text << ": " << one.why << '\n' << about.prompt << text;
   }
+  // Nor is it refused: what it comes to can be checked.
+  EXPECT_TRUE(true_part(text, about.prompt, about.situation, choice)) << about.prompt << text;
 }
 
 TEST(ReplyGrammar, AllowsNothingFalse) {

@@ -104,6 +104,27 @@ void find_policies(std::string_view low, Subject& subject) {
   }
 }
 
+/// Whether a line of the prompt is about a policy or a road user that a sentence names.
+bool is_line_about(std::string_view line, const Subject& subject, const Situation& situation) {
+  const auto is_of = [line](PolicyId policy) { return is_line_of(line, policy); };
+  if (std::any_of(subject.policies.begin(), subject.policies.end(), is_of)) {
+    return true;
+  }
+  const std::string low = lowered(line);
+  if (is_line_of_case(line)) {
+    return subject.of_case &&
+           std::any_of(subject.policies.begin(), subject.policies.end(),
+                       [&](PolicyId policy) { return has_phrase(low, lowered(name(policy))); });
+  }
+  const bool of_another_policy =
+      !subject.policies.empty() &&
+      std::any_of(manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(), is_of);
+  return !of_another_policy &&
+         std::any_of(subject.actors.begin(), subject.actors.end(), [&](std::size_t i) {
+           return has_phrase(low, actor_name(situation.scene_at_trigger.actors[i]));
+         });
+}
+
 }  // namespace
 
 Subject subject_of(std::string_view low, const Situation& situation) {
@@ -113,6 +134,8 @@ Subject subject_of(std::string_view low, const Situation& situation) {
   const bool left = has_any(low, std::array<std::string_view, 2>{"left", "leftward"});
   const bool right = has_any(low, std::array<std::string_view, 2>{"right", "rightward"});
   subject.side = left == right ? 0 : left ? 1 : -1;
+  subject.of_case =
+      has_any(low, std::array<std::string_view, 4>{"case", "cases", "alike", "hindsight"});
   return subject;
 }
 
@@ -125,15 +148,8 @@ std::string lines_about(std::string_view prompt, const Subject& subject,
   for (std::size_t begin = 0; begin < prompt.size();) {
     const std::size_t end = std::min(prompt.find('\n', begin), prompt.size());
     const std::string_view line = prompt.substr(begin, end - begin);
-    const std::string low = lowered(line);
-    const bool of_actor =
-        std::any_of(subject.actors.begin(), subject.actors.end(), [&](std::size_t i) {
-          return has_phrase(low, actor_name(situation.scene_at_trigger.actors[i]));
-        });
-    const bool of_policy = std::any_of(subject.policies.begin(), subject.policies.end(),
-                                       [&](PolicyId policy) { return is_line_of(line, policy); });
     // What the ego is and does may be said beside anybody.
-    if (of_actor || of_policy || is_line_of_ego(line)) {
+    if (is_line_about(line, subject, situation) || is_line_of_ego(line)) {
       found += line;
       found += '\n';
     }

@@ -54,10 +54,16 @@ TEST(Subject, IsASideWhereOneAloneIsNamed) {
   EXPECT_EQ(subject("straight on").side, 0);
 }
 
+TEST(Subject, IsTheMostAlikeCaseWhereItIsSpokenOf) {
+  EXPECT_TRUE(subject("a case 83 % alike").of_case);
+  EXPECT_TRUE(subject("best in hindsight").of_case);
+  EXPECT_FALSE(subject("aeb is clear").of_case);
+}
+
 TEST(Subject, HasItsLinesOfThePrompt) {
   const std::string prompt =
       "ego: 14 m/s\ntruck1: 16 m ahead\npedestrian1: 6.0 m ahead\n0 AEB: clear\n"
-      "1 AES-L: hits truck1\n";
+      "1 AES-L: hits truck1\nA case 83 % alike: best in hindsight 0 AEB, harm 0.072\n";
   const preview::Situation situation = example_situation();
   const auto about = [&](std::string_view low) {
     return lines_about(prompt, subject_of(low, situation), situation);
@@ -66,6 +72,13 @@ TEST(Subject, HasItsLinesOfThePrompt) {
   EXPECT_THAT(about("pedestrian1"), HasSubstr("pedestrian1: 6.0 m"));
   EXPECT_THAT(about("pedestrian1"), Not(HasSubstr("truck1")));
   EXPECT_THAT(about("aeb"), testing::AllOf(HasSubstr("0 AEB"), Not(HasSubstr("1 AES-L"))));
+  EXPECT_THAT(about("aeb"), Not(HasSubstr("A case")));
+  EXPECT_THAT(about("in the case aeb"), HasSubstr("A case 83 %"));
+  EXPECT_THAT(about("in the case aes-l"), Not(HasSubstr("A case")));
+  // Of another policy's line whom it hits is no subject.
+  EXPECT_THAT(about("truck1"), HasSubstr("1 AES-L"));
+  EXPECT_THAT(about("truck1: aeb"), testing::AllOf(HasSubstr("truck1: 16 m"), HasSubstr("0 AEB"),
+                                                   Not(HasSubstr("1 AES-L"))));
   EXPECT_THAT(about("aeb"), HasSubstr("ego: 14")) << "what the ego does may be said anywhere";
 }
 

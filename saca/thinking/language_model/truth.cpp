@@ -1,16 +1,18 @@
+// Longer than 400 lines: every rule by which a statement is judged stands here.
 #include "saca/thinking/language_model/truth.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "saca/onboard/collision/ordering.h"
 #include "saca/thinking/language_model/claim.h"
 #include "saca/thinking/language_model/conclusion.h"
+#include "saca/thinking/language_model/number_check.h"
 #include "saca/thinking/language_model/prompt.h"
+#include "saca/thinking/language_model/prompt_lines.h"
 #include "saca/thinking/language_model/quote.h"
 #include "saca/thinking/language_model/quoted_number.h"
 #include "saca/thinking/language_model/reply.h"
@@ -25,27 +27,12 @@ using manoeuvre::PolicyId;
 using preview::PolicyFacts;
 using preview::Situation;
 
-bool agree(const QuotedNumber& said, const QuotedNumber& known) {
-  const bool same_unit = said.unit.empty() || known.unit.empty() || said.unit == known.unit;
-  constexpr double rounding = 1e-9;
-  constexpr double coarsest = 0.1;  // of the number: 1 is not a rounded 0.9
-  const bool may_be_rounded = said.resolution <= coarsest * said.value;
-  const double off = may_be_rounded ? 0.5 * said.resolution : 0.0;
-  const bool same_place = said.where.empty() || said.where == known.where;
-  const bool same_kind = said.of_what.empty() || said.of_what == known.of_what;
-  return same_unit && same_place && same_kind &&
-         std::abs(said.value - known.value) <= off + rounding;
-}
-
-/// "16 / 14 = 1.14": to the decimals that are quoted.
-bool is_quotient(const std::vector<QuotedNumber>& numbers, std::size_t i) {
-  return i >= 2 && numbers[i].after_equals && numbers[i - 1].value != 0.0 &&
-         std::abs(numbers[i - 2].value / numbers[i - 1].value - numbers[i].value) <=
-             0.5 * numbers[i].resolution + 1e-9;
-}
-
 bool hits(const PolicyFacts& facts) {
   return facts.drivable() && facts.outcome().contact.has_value();
+}
+/// As the prompt tells it: what is met first is no road user.
+bool leaves_the_road(const PolicyFacts& facts) {
+  return hits(facts) && !facts.outcome().contact->actor;
 }
 bool is_blocked(const PolicyFacts& facts) {
   return !facts.drivable() || hits(facts);
@@ -59,6 +46,8 @@ bool is_so(Claim claim, const PolicyFacts& facts, const Situation& situation) {
       return is_blocked(facts);
     case Claim::hits:
       return hits(facts);
+    case Claim::leaves:
+      return leaves_the_road(facts);
     case Claim::no_harm:
       return facts.drivable() && facts.outcome().harm < prompt_no_harm;
     case Claim::least_harm:
@@ -100,7 +89,7 @@ std::string told(const PolicyFacts& facts, const Situation& situation) {
                          : "not possible");
 }
 
-/// A sentence being judged.
+/// A part of a sentence being judged.
 struct Verdict {
   bool says_something = false;
   std::string why;  ///< empty: nothing is wrong
@@ -113,34 +102,44 @@ struct Verdict {
   }
 };
 
-void judge_numbers(std::string_view sentence, std::string_view prompt, const Subject& subject,
+/// A part of a sentence that claims one thing.
+struct Part {
+  std::string_view text;
+  Subject subject;
+  Subject of_numbers;             ///< what its numbers are about
+  std::optional<PolicyId> first;  ///< the policy that the sentence names first
+};
+
+/// A part that names neither a road user nor a policy has numbers of what the part before it is
+/// about, unless they are of the road or of a cue.
+std::vector<Part> parts(std::string_view sentence, const Situation& situation) {
+  std::vector<Part> all;
+  Subject before;
+  for (const std::string_view clause : clauses(sentence)) {
+    const std::string low = lowered(clause);
+    const Subject subject = subject_of(low, situation);
+    if (subject.names_anything()) {
+      before = subject;
+    }
+    Subject of_numbers = is_of_an_edge(low) || without_cues(low) != low ? subject : before;
+    of_numbers.side = subject.side;
+    of_numbers.of_case = of_numbers.of_case || subject.of_case;
+    all.push_back({clause, subject, std::move(of_numbers), first_named(sentence)});
+  }
+  return all;
+}
+
+void judge_numbers(std::string_view text, std::string_view prompt, const Subject& subject,
                    const Situation& situation, Verdict& verdict) {
-  std::vector<QuotedNumber> said = quoted_numbers(sentence);
+  const std::vector<QuotedNumber> said = numbers_said(text, subject.side);
   if (said.empty()) {
     return;
   }
   verdict.says_something = true;
-  const bool of_an_edge = has_any(
-      lowered(sentence), std::array<std::string_view, 4>{"edge", "trees", "barrier", "kerb"});
-  for (QuotedNumber& one : said) {
-    if (one.where == "away") {
-      one.where.clear();
-      one.of_what = of_an_edge ? "edge" : one.of_what;
-    }
-  }
-  const std::string lines = lines_about(prompt, subject, situation);
-  std::vector<QuotedNumber> known = quoted_numbers(lines);
-  if (has_phrase(lines, "no harm")) {
-    // Nothing but a number without a unit.
-    known.push_back({.text = "0", .unit = "of harm", .where = {}, .of_what = "harm"});
-  }
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    const bool stands = std::any_of(known.begin(), known.end(),
-                                    [&](const QuotedNumber& each) { return agree(said[i], each); });
-    if (!stands && !is_quotient(said, i)) {
-      verdict.wrong(fmt::format("{}{}{} stands nowhere", said[i].text,
-                                said[i].unit.empty() ? "" : " ", said[i].unit));
-    }
+  const auto none = unfounded(said, lines_about(prompt, subject, situation));
+  if (none) {
+    verdict.wrong(fmt::format("{}{}{} stands nowhere", none->text, none->unit.empty() ? "" : " ",
+                              none->unit));
   }
 }
 
@@ -151,9 +150,24 @@ bool has_harm_of(PolicyId policy, std::string_view prompt, const Situation& situ
   return lines_about(prompt, alone, situation).find(", harm ") != std::string::npos;
 }
 
+/// "No harm" that is said of the most alike case: the prompt tells it of a policy that is named.
+void judge_harmless_case(std::string_view prompt, const Subject& subject, Verdict& verdict) {
+  verdict.says_something = true;
+  const std::string_view told = rest_of_line(prompt, "A case ");
+  if (std::none_of(subject.policies.begin(), subject.policies.end(), [told](PolicyId policy) {
+        return told.find(fmt::format("{}, no harm", name(policy))) != std::string_view::npos;
+      })) {
+    verdict.wrong("the most alike case does not tell it");
+  }
+}
+
 void judge_claim(Claim claim, std::string_view prompt, const Subject& subject,
                  const Situation& situation, Verdict& verdict) {
   const auto& facts = situation.facts;
+  if (claim == Claim::no_harm && subject.of_case && !subject.policies.empty()) {
+    judge_harmless_case(prompt, subject, verdict);
+    return;
+  }
   if (!subject.policies.empty()) {
     verdict.says_something = true;
     for (const PolicyId policy : subject.policies) {
@@ -283,6 +297,63 @@ void judge_comparison(std::string_view low, const Subject& subject, const Situat
   }
 }
 
+/// The policy that a text calls the next best: "next NI", "next is 7 NI"; nullopt: none.
+std::optional<PolicyId> called_next(std::string_view low) {
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    for (const std::string_view words : {"next ", "next best ", "next is ", "next best is "}) {
+      const std::string called = lowered(name(policy));
+      if (has_phrase(low, fmt::format("{}{}", words, called)) ||
+          has_phrase(low, fmt::format("{}{} {}", words, manoeuvre::index(policy), called))) {
+        return policy;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whom the text calls the next best after the policy that its sentence names first: of the others
+/// none is forecast better (`Statements::next_best` names the first of equals).
+void judge_next(std::string_view low, const std::optional<PolicyId>& first,
+                const Situation& situation, Verdict& verdict) {
+  const std::optional<PolicyId> next = called_next(low);
+  if (!next || !first || next == first || is_denied(low)) {
+    return;
+  }
+  verdict.says_something = true;
+  const PolicyFacts& its = situation.facts[manoeuvre::index(*next)];
+  if (!its.drivable()) {
+    verdict.wrong(told(its, situation));
+  }
+  for (const PolicyId other : manoeuvre::all_policies) {
+    if (other != first && preview::better(situation.facts[manoeuvre::index(other)], its)) {
+      verdict.wrong(fmt::format("{} is better than {}", name(other), name(*next)));
+    }
+  }
+}
+
+/// What a text says to lie beyond an edge of the road: "trees". Where it names no side, or both, it
+/// has to be so at one of them.
+void judge_beyond(std::string_view low, const Subject& subject, const Situation& situation,
+                  Verdict& verdict) {
+  if (is_denied(low) || !has_any(low, std::array<std::string_view, 2>{"edge", "beyond"})) {
+    return;
+  }
+  const world::Road& road = situation.scene_at_trigger.road;
+  for (const world::Beyond beyond : {world::Beyond::unmarked, world::Beyond::kerb,
+                                     world::Beyond::barrier, world::Beyond::trees}) {
+    const std::string_view text = beyond_text(beyond);
+    if (!has_phrase(low, text) || has_phrase(low, fmt::format("no {}", text))) {
+      continue;
+    }
+    verdict.says_something = true;
+    if (!(subject.side >= 0 && road.left_beyond == beyond) &&
+        !(subject.side <= 0 && road.right_beyond == beyond)) {
+      verdict.wrong(fmt::format("beyond the left edge: {}, beyond the right edge: {}",
+                                beyond_text(road.left_beyond), beyond_text(road.right_beyond)));
+    }
+  }
+}
+
 /// Whether the sentence is about what was chosen.
 bool is_about(const Subject& subject, PolicyId choice) {
   return std::find(subject.policies.begin(), subject.policies.end(), choice) !=
@@ -290,10 +361,10 @@ bool is_about(const Subject& subject, PolicyId choice) {
          (subject.policies.empty() && subject.side != 0 && subject.side == manoeuvre::side(choice));
 }
 
-Verdict judged(std::string_view sentence, std::string_view prompt, const Situation& situation,
+Verdict judged(const Part& part, std::string_view prompt, const Situation& situation,
                const std::optional<PolicyId>& choice) {
-  const std::string low = lowered(sentence);
-  const Subject subject = subject_of(low, situation);
+  const std::string low = lowered(part.text);
+  const Subject& subject = part.subject;
   Verdict verdict;
   if (!subject.unknown.empty()) {
     verdict.says_something = true;
@@ -304,13 +375,15 @@ Verdict judged(std::string_view sentence, std::string_view prompt, const Situati
     verdict.wrong(fmt::format("{} is policy {}", name(*subject.misnumbered),
                               manoeuvre::index(*subject.misnumbered)));
   }
-  judge_numbers(sentence, prompt, subject, situation, verdict);
+  judge_numbers(part.text, prompt, part.of_numbers, situation, verdict);
   const std::optional<Claim> claim = claim_of(low);
   if (claim) {
     judge_claim(*claim, prompt, subject, situation, verdict);
   }
   judge_alike_case(low, prompt, subject, verdict);
   judge_comparison(low, subject, situation, verdict);
+  judge_next(low, part.first, situation, verdict);
+  judge_beyond(low, subject, situation, verdict);
   if (choice && is_about(subject, *choice)) {
     verdict.load_bearing = true;
     const bool rules_out = claim == Claim::not_possible || claim == Claim::blocked;
@@ -344,11 +417,11 @@ Truth truth_of(std::string_view reasoning, std::string_view prompt, const Situat
                const std::optional<PolicyId>& choice) {
   Truth truth;
   for (const std::string_view sentence : sentences(reasoning)) {
-    for (const std::string_view clause : clauses(sentence)) {
-      Verdict verdict = judged(clause, prompt, situation, choice);
+    for (const Part& part : parts(sentence, situation)) {
+      Verdict verdict = judged(part, prompt, situation, choice);
       truth.num_checked += verdict.says_something ? 1 : 0;
       if (!verdict.why.empty()) {
-        truth.wrong.push_back({.text = quote(clause, ""),
+        truth.wrong.push_back({.text = quote(part.text, ""),
                                .why = std::move(verdict.why),
                                .load_bearing = verdict.load_bearing});
       }

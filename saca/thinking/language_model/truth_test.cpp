@@ -8,7 +8,6 @@
 
 #include "saca/thinking/language_model/example_situation.h"
 #include "saca/thinking/language_model/prompt.h"
-#include "saca/thinking/language_model/quoted_number.h"
 
 namespace saca::language_model::truth_test {
 namespace {
@@ -95,10 +94,44 @@ TEST(Truth, NumbersStandWhereAndForWhatIsSaid) {
   EXPECT_EQ(wrong("truck1 is 16.0 m away, trees."), "16.0 m stands nowhere;");
   EXPECT_EQ(wrong("truck1: risk 0.94."), "");
   EXPECT_EQ(wrong("truck1: brake 0.94."), "0.94 stands nowhere;");
-  const preview::Situation situation = example_situation();
+}
+
+// left edge 5.2 m, kerb; right edge 1.8 m
+TEST(Truth, EdgesAreThoseOfTheirSide) {
+  EXPECT_EQ(wrong("Beyond the left edge, 5.2 m away, is a kerb."), "");
+  EXPECT_EQ(wrong("The left edge is 5.2 m away, the right edge 1.8 m."), "");
+  EXPECT_EQ(wrong("Beyond the left edge, 1.8 m away, is a kerb."), "1.8 m stands nowhere;");
+  EXPECT_EQ(wrong("Right edge 5.2 m."), "5.2 m stands nowhere;");
+  EXPECT_EQ(wrong("On the left the edge 1.8 m."), "1.8 m stands nowhere;");
+  EXPECT_EQ(wrong("An edge is 1.8 m away."), "");
+}
+
+TEST(Truth, WhatLiesBeyondAnEdgeLiesThere) {
+  const std::string so = "beyond the left edge: kerb, beyond the right edge: open ground;";
+  EXPECT_EQ(wrong("Beyond the left edge, 5.2 m away, are trees."), so);
+  EXPECT_EQ(wrong("Beyond the left edge, 5.2 m away, is a barrier."), so);
+  EXPECT_EQ(wrong("Beyond the right edge is a kerb."), so);
+  EXPECT_EQ(wrong("Beyond the right edge is open ground."), "");
+  EXPECT_EQ(wrong("Beyond one edge is a kerb."), "");
+  EXPECT_EQ(wrong("Beyond the right edge is no kerb."), "");
+}
+
+// What follows a claim is of whom that names: "harm 0.013" after "NI hits truck1" is NI's.
+TEST(Truth, NumbersBehindAClaimAreOfItsSubject) {
+  preview::Situation situation = example_situation();
+  situation.facts[2].outcome().harm = 0.02;
   const std::string prompt = scene_part(situation, std::nullopt, 0.0);
-  const auto edge = quoted_numbers(prompt.substr(prompt.find("left edge"))).front();
-  EXPECT_EQ(wrong("Beyond the left edge, " + edge.text + " m away, are trees."), "");
+  const auto why = [&](const std::string& text) {
+    const Truth truth = truth_of(text, prompt, situation, PolicyId::aeb);
+    return truth.wrong.empty() ? "" : truth.wrong.front().why;
+  };
+  EXPECT_EQ(why("NI hits truck1 at 15.0 m/s, harm 0.013."), "");
+  EXPECT_EQ(why("NI hits truck1 at 15.0 m/s, harm 0.020."), "0.020 stands nowhere");
+  EXPECT_EQ(why("NI hits truck1, which is bad, harm 0.020."), "0.020 stands nowhere");
+  EXPECT_EQ(why("NI hits truck1 at 9.0 m/s."), "9.0 m/s stands nowhere") << "AES-L does";
+  EXPECT_EQ(why("truck1, 16 m ahead: AES-R hits it, harm 0.020."), "");
+  EXPECT_EQ(why("NI hits truck1, AES-R has harm 0.020."), "");
+  EXPECT_EQ(why("AEB is clear, the left edge is 5.2 m away."), "") << "the road is nobody's";
 }
 
 TEST(Truth, QuotientsAreComputed) {
@@ -138,6 +171,40 @@ TEST(Truth, PoliciesHaveTheirOwnNumbers) {
   EXPECT_EQ(wrong("0 AEB is clear, 12 AES-L hits truck1."), "AES-L is policy 1;");
   EXPECT_EQ(wrong("1. AEB is clear."), "");  // the line's number
   EXPECT_EQ(wrong("The grip is 0.90 AEB is clear."), "");
+  EXPECT_EQ(wrong("So 0 AEB: it is clear"), "");  // its own number is no figure
+  EXPECT_EQ(wrong("the best is 0 AEB"), "");
+  EXPECT_EQ(wrong("the best is 3 AEB"), "! AEB is policy 0;");
+}
+
+// As the prompt says it where what is met first is no road user.
+TEST(Truth, WhoLeavesTheRoadIsForecastTo) {
+  EXPECT_EQ(wrong("AES-L leaves the road."), "1 AES-L: hits truck1 with its front at 9.0 m/s;");
+  EXPECT_EQ(wrong("AEB leaves the road."), "! 0 AEB: clear by 0.6 m;");
+  EXPECT_EQ(wrong("T-D-L leaves the road."), "5 T-D-L: not possible;");
+  preview::Situation situation = example_situation();
+  situation.facts[1].outcome().contact->actor.reset();
+  situation.facts[1].outcome().contact->edge = collision::Side::left;
+  const Truth truth = truth_of("AES-L leaves the road, harm 0.013.",
+                               scene_part(situation, std::nullopt, 0.0), situation, PolicyId::aeb);
+  EXPECT_EQ(truth.num_checked, 2);
+  EXPECT_TRUE(truth.wrong.empty());
+}
+
+// By forecast: AEB, NI, then ES-B-L and ES-B-R, which are equals, then AES-L and AES-R likewise.
+TEST(Truth, WhatIsNextIsTheBestOfTheOthers) {
+  EXPECT_EQ(wrong("So AEB: least harm, next NI"), "");
+  EXPECT_EQ(wrong("So AEB: least harm, next NI, harm 0.013"), "");
+  EXPECT_EQ(wrong("So AEB: least harm, next ES-B-L"), "NI is better than ES-B-L;");
+  EXPECT_EQ(wrong("So AEB: least harm, next is 3 ES-B-L"), "NI is better than ES-B-L;");
+  EXPECT_EQ(wrong("So AEB: least harm, next T-D-L"), "5 T-D-L: not possible;");
+  EXPECT_EQ(wrong("So AEB: least harm, next to truck1"), "");
+  preview::Situation situation = example_situation();
+  situation.facts[7].end = preview::Refusal{"somebody else drives"};
+  for (const char* equal : {"So AEB: least harm, next ES-B-L", "So AEB: least harm, next ES-B-R"}) {
+    const Truth truth = truth_of(equal, scene_part(situation, std::nullopt, 0.0), situation, {});
+    EXPECT_TRUE(truth.wrong.empty()) << equal;
+    EXPECT_EQ(truth.num_checked, 2) << equal;
+  }
 }
 
 // What denies or excepts is not understood well enough to accuse anybody.
@@ -207,6 +274,22 @@ TEST(Truth, ComparisonsAreSo) {
             "AES-R is not milder than AEB");
 }
 
+// A siren "of an emergency vehicle that is not seen" denies nothing.
+TEST(Truth, NamesOfCuesDenyNothing) {
+  preview::Situation situation = example_situation();
+  situation.facts[2].outcome().harm = situation.facts[0].outcome().harm;
+  situation.scene_at_trigger.cues.push_back({world::CueKind::emergency_vehicle, {12.0, -3.5}});
+  const std::string prompt = scene_part(situation, std::nullopt, 0.0);
+  const std::string away =
+      ", and keeps away from the siren of an emergency vehicle that is not seen";
+  const Truth so = truth_of("So AEB: as good as AES-R" + away, prompt, situation, PolicyId::aeb);
+  EXPECT_EQ(so.num_checked, 1);
+  EXPECT_TRUE(so.wrong.empty());
+  const Truth not_so =
+      truth_of("So AEB: as good as AES-L" + away, prompt, situation, PolicyId::aeb);
+  EXPECT_TRUE(not_so.is_choice_unfounded());
+}
+
 TEST(Truth, OfALikeCaseIsWhatThePromptTells) {
   const preview::Situation situation = example_situation();
   memory::Case nearest;
@@ -225,6 +308,31 @@ TEST(Truth, OfALikeCaseIsWhatThePromptTells) {
             "in the most alike case it was ES-B-L");
   EXPECT_EQ(why("So ES-B-L: and this was best in the most alike case", nearest), "");
   EXPECT_EQ(why("ES-B-L was best in hindsight", std::nullopt), "no like case tells it");
+}
+
+// AEB is forecast to do no harm, and ES-B-L to do 0.013.
+TEST(Truth, OfALikeCaseItsFiguresMayBeQuoted) {
+  const preview::Situation situation = example_situation();
+  memory::Case nearest;
+  nearest.plan.policy = PolicyId::aeb;
+  nearest.harm = 0.072;
+  nearest.best = PolicyId::es_b_left;
+  const std::string prompt = scene_part(situation, nearest, 0.83);
+  const auto why = [&](const std::string& text) {
+    const Truth truth = truth_of(text, prompt, situation, PolicyId::es_b_left);
+    EXPECT_GT(truth.num_checked, 0) << text;
+    return truth.wrong.empty() ? "" : truth.wrong.front().why;
+  };
+  const std::string line = prompt.substr(prompt.find("A case 83 % alike"));
+  ASSERT_EQ(line,
+            "A case 83 % alike: carried out 0 AEB, harm 0.072; best in hindsight 3 ES-B-L, no "
+            "harm\n");
+  EXPECT_EQ(why("1. " + line), "");
+  EXPECT_EQ(why("A case 84 % alike: carried out 0 AEB"), "84 % stands nowhere");
+  EXPECT_EQ(why("A case 83 % alike: carried out 0 AEB, no harm"),
+            "the most alike case does not tell it");
+  EXPECT_EQ(why("AEB does no harm"), "") << "as is forecast, whatever the case did";
+  EXPECT_EQ(why("AEB: harm 0.072"), "0.072 stands nowhere") << "that is the case's";
 }
 
 TEST(Truth, IsKeptInOrderAndCounted) {
