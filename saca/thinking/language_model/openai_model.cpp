@@ -28,6 +28,9 @@ constexpr Clock::Time longest_look = 10ms;
 // Looks after the last answer for the ends of the streams: a connection that has seen its end can
 // be used again, without another handshake.
 constexpr int farewell_looks = 2;
+// Of a server that has never taken a connection: with the pauses between them they take 3 s. One
+// that is not there must not keep a caller waiting until a deadline of minutes.
+constexpr int most_refused_connections = 7;
 
 bool is_busy(long status) {
   constexpr std::array<long, 5> busy{429, 500, 502, 503, 504};
@@ -113,7 +116,9 @@ struct OpenAiModel::Call {
   State state = State::waiting;
   Clock::Time begin_at{0};
   Clock::Time pause = first_pause;
-  std::string setback;  ///< why it was asked again, the last time
+  std::string setback;          ///< why it was asked again, the last time
+  bool connected = false;       ///< some time
+  int refused_connections = 0;  ///< before it was
   bool answered = false;
   std::optional<Error> error;  ///< why there is no answer
   CurlEasy easy;
@@ -338,6 +343,7 @@ void OpenAiModel::Exchange::see_end(Call& call, CURLcode code) {
   curl_off_t retry_after = 0;
   curl_easy_getinfo(call.easy.get(), CURLINFO_RETRY_AFTER, &retry_after);
   leave(call, Call::State::over);
+  call.connected = call.connected || code != CURLE_COULDNT_CONNECT;
   if (call.answered || call.error) {
     return;
   }
@@ -358,7 +364,10 @@ void OpenAiModel::Exchange::see_end(Call& call, CURLcode code) {
     const std::string reason =
         call.reason.front() != '\0' ? call.reason.data() : curl_easy_strerror(code);
     const std::string what = "want a stream of text, got " + quoted(reason);
-    if (is_broken_connection(code) && call.stream.text().empty()) {
+    if (!call.connected && ++call.refused_connections >= most_refused_connections) {
+      fail(call, Error::Code::unreadable,
+           fmt::format("{} ({} times)", what, call.refused_connections));
+    } else if (is_broken_connection(code) && call.stream.text().empty()) {
       ask_again(call, call.pause, what);
     } else {
       fail(call, Error::Code::unreadable, what);

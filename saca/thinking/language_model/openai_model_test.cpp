@@ -350,6 +350,23 @@ TEST_F(OpenAiModelTest, RefusedConnectionIsToldOf) {
   EXPECT_THAT(replies.error().message, AllOf(HasSubstr(url), HasSubstr("onnect")));
 }
 
+TEST_F(OpenAiModelTest, AServerThatIsNotThereIsNotWaitedForUntilTheDeadline) {
+  clock_.step(50ms);
+  std::string url;
+  {
+    const RudeServer server({sends("")});
+    url = server.url();
+  }
+  OpenAiModel model(settings(url), clock_);
+  const auto replies = model.ask({"a", "b"}, long_time, record_);
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_EQ(replies.error().code, Error::Code::unreadable);
+  EXPECT_THAT(replies.error().message,
+              AllOf(HasSubstr(url), HasSubstr("onnect"), HasSubstr("(7 times)")));
+  EXPECT_GT(clock_.last_look(), 3s);  // it may only be starting
+  EXPECT_LT(clock_.last_look(), long_time / 10);
+}
+
 TEST_F(OpenAiModelTest, SilenceAfterASetbackTellsOfIt) {
   clock_.step(10ms);
   RudeServer server({sends(http(503, "loading")), [&](Visit& visit) {
