@@ -80,6 +80,7 @@ def test_doing_nothing_at_the_printed_t1_hits_at_the_speeds_that_are_printed(tmp
     (["whatif", "intersection_t1", "--vary", "truck.distance_m=10:20"], "FROM:TO:STEP"),
     (["whatif", "intersection_t1", "--vary", "tram.speed_mps=1:2:1"], "truck1, pedestrian1"),
     (["whatif", "intersection_t1", "--vary", "grip=0.2:0.9:0.001", "--vary", "ego.speed_mps=8:18:0.1"], "at most"),
+    (["whatif", "intersection_t1", "--vary", "duration_s=1:2:1"], "duration_s=1: it ends before the policies begin, at"),
     (["whatif", "100car_9018", "--vary", "ego.speed_mps=8:9:1"], "follows a recording"),
     (["family", "no_such"], "no_such: no family is there"),
     (["family", "merge"], "kept for the test split"),

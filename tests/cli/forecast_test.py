@@ -108,6 +108,7 @@ def test_a_fan_is_drawn_over_what_happened(tmp_path):
 @pytest.mark.parametrize("arguments, words", [
     (("--encounter", "3", "--who", "tram1", "--at-s", "4.5"), 'head_on 3: want somebody who is perceived at 4.5 s: van1'),
     (("--encounter", "3", "--who", "van1", "--at-s", "99"), "got 99 s"),
+    (("--encounter", "3", "--who", "van1", "--at-s", "-1"), "which begins at 0 s, got -1 s"),
 ])
 def test_a_fan_of_nobody_is_refused(tmp_path, arguments, words):
     assert words in one_error(show(tmp_path, *arguments), BAD_INPUT)

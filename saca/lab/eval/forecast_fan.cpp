@@ -48,6 +48,11 @@ void keep(const Scene& truth, const Scene& seen, ForecastFan& fan) {
 
 Result<ForecastFan> forecast_fan(const encounter::Stage& stage, std::string_view who, double time) {
   constexpr double step = encounter::ClosedLoop::step;
+  if (time < 0.0) {
+    return Error{
+        Error::Code::out_of_range,
+        fmt::format("want an instant of the encounter, which begins at 0 s, got {:g} s", time)};
+  }
   encounter::ClosedLoop loop(stage);
   std::optional<ForecastFan> fan;
   while (!loop.truth().over() &&

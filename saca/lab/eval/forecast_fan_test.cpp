@@ -47,6 +47,7 @@ TEST_F(ForecastFanTest, EndsWithTheEncounter) {
 TEST_F(ForecastFanTest, SaysWhoIsPerceived) {
   EXPECT_THAT(fan("truck7", 2.0).error().message, HasSubstr("at 2 s: car1, got \"truck7\""));
   EXPECT_THAT(fan("car1", 60.0).error().message, HasSubstr("ends at 6 s, got 60 s"));
+  EXPECT_THAT(fan("car1", -1.0).error().message, HasSubstr("begins at 0 s, got -1 s"));
 }
 
 }  // namespace

@@ -166,18 +166,31 @@ Cell cell_of(const Finding& finding) {
           .harms = finding.harm};
 }
 
+/// A number of the scenario's file.
+Result<Scenario> varied_in_file(const Scenario& scenario, const world::Footprint& ego, double time,
+                                const Axis& axis, double value) {
+  const auto text = config::with_number(scenario::write_scenario(scenario), axis.path, value);
+  if (!text.has_value()) {
+    return impossible(axis, value, text.error().message);
+  }
+  auto read = scenario::read_scenario(text.value(), "as varied", ego);
+  if (!read.has_value()) {
+    return impossible(axis, value, read.error().message);
+  }
+  if (read.value().duration < time) {
+    return impossible(axis, value,
+                      fmt::format("it ends before the policies begin, at {:g} s", time));
+  }
+  return read;
+}
+
 }  // namespace
 
 Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, double time,
                         const Axis& axis, double value) {
   const world::Footprint ego = manoeuvre::footprint(car);
   if (!axis.path.empty()) {
-    const auto text = config::with_number(scenario::write_scenario(scenario), axis.path, value);
-    if (!text.has_value()) {
-      return impossible(axis, value, text.error().message);
-    }
-    const auto read = scenario::read_scenario(text.value(), "as varied", ego);
-    return read.has_value() ? read : impossible(axis, value, read.error().message);
+    return varied_in_file(scenario, ego, time, axis, value);
   }
   PlacesThen wanted = places_at(scenario, car, time);
   if (axis.key == "offset_m" && axis.body == "ego") {

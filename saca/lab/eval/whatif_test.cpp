@@ -115,6 +115,9 @@ TEST_F(Whatif, ValuesThatCannotBeAreRefused) {
   EXPECT_THAT(refused("pedestrian.speed_mps=1:1:1"), HasSubstr("no speed of its own"));
   EXPECT_THAT(refused("perception.latncy_s=1:1:1"), HasSubstr("did you mean 'latency_s'?"));
   EXPECT_THAT(refused("road.left_edge_m=-1:-1:1"), HasSubstr("left_edge_m: want 0.5 to 100"));
+  EXPECT_THAT(refused("duration_s=2:2:1"),
+              HasSubstr("duration_s=2: it ends before the policies begin, at 5 s"));
+  EXPECT_EQ(refused("duration_s=5:5:1"), "");
   EXPECT_THAT(refused("actors.0.start.s_m.x=1:1:1"), HasSubstr("no number can stand there"));
 }
 
