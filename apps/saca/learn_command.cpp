@@ -64,7 +64,7 @@ void add_learn(CLI::App& line) {
   add(command, "--seeds", request.seeds, "How many such ways, each with encounters of its own",
       CLI::Range(1, 100));
   add(command, "--lies", request.lies,
-      "Share of what one memory is told that is the opposite of the truth", CLI::Range(0.0, 1.0));
+      "Share of what one memory is told that is the opposite of the truth", within(0.0, 1.0));
   command.add_flag("--no-twins", from.no_twins,
                    "Without those without risk, which half of the encounters else are");
   add(command, "-o,--output", request.folder,

@@ -99,14 +99,14 @@ void add_thresholds_options(CLI::App& command, reflex::Thresholds& thresholds) {
       .add_option("--t1-s", thresholds.trigger,
                   "T1: everybody who acts at the trigger acts when a conflict is so near [s]")
       ->default_val(shipped.trigger)
-      ->check(CLI::Range(0.1, shipped.preview));
+      ->check(within(0.1, shipped.preview, "s"));
   command
       .add_option_function<double>(
           "--waiting-cost", [&thresholds](double cost) { thresholds.waiting_cost = cost; },
           fmt::format("Of SACA: before T1, it acts as soon as waiting is expected to cost more "
                       "harm than this (default: {})",
                       *shipped.waiting_cost))
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
 }
 
 /// A folder's name as the shell completes it, without the slash at its end.

@@ -18,12 +18,39 @@ namespace saca::app {
 using shell::one_of;
 using shell::within;
 
+/// What an option holds one or several of.
+template <class T>
+struct ValueOf {
+  using Type = T;
+};
+template <class T>
+struct ValueOf<std::optional<T>> {
+  using Type = T;
+};
+template <class T>
+struct ValueOf<std::vector<T>> {
+  using Type = T;
+};
+
+/// Adds an option whose value is held against its type, too: whole numbers come as they were typed,
+/// or are refused.
+template <class T>
+CLI::Option* add_checked(CLI::App& command, const std::string& name, T& value,
+                         const std::string& about, const CLI::Validator& check) {
+  CLI::Option* const option = command.add_option(name, value, about)->check(check);
+  using Value = typename ValueOf<T>::Type;
+  if constexpr (std::is_integral_v<Value>) {
+    option->check(shell::whole_number<Value>());
+  }
+  return option;
+}
+
 /// Adds an option, or what stands at a place of its own; help shows what it is unless it is given,
 /// but where that is empty.
 template <class T>
 CLI::Option* add(CLI::App& command, const std::string& name, T& value, const std::string& about,
                  const CLI::Validator& check = CLI::Validator()) {
-  CLI::Option* const option = command.add_option(name, value, about)->check(check);
+  CLI::Option* const option = add_checked(command, name, value, about, check);
   if constexpr (std::is_arithmetic_v<T>) {
     option->capture_default_str();
   } else if constexpr (std::is_same_v<T, std::string> ||
@@ -40,7 +67,7 @@ CLI::Option* add(CLI::App& command, const std::string& name, T& value, const std
 template <class T>
 CLI::Option* add_needed(CLI::App& command, const std::string& name, T& value,
                         const std::string& about, const CLI::Validator& check = CLI::Validator()) {
-  return command.add_option(name, value, about)->check(check)->required();
+  return add_checked(command, name, value, about, check)->required();
 }
 
 /// --json

@@ -95,7 +95,8 @@ def test_a_folder_in_which_another_program_learns_is_refused(taught, tmp_path):
 def test_what_cannot_be_done_is_refused(tmp_path):
     assert "none.sqlite" in one_error(saca("learn", "balanced", "--memory", "none.sqlite", cwd=tmp_path), BAD_INPUT)
     assert "balancd" in one_error(saca("learn", "balancd", cwd=tmp_path), BAD_INPUT)
-    assert saca("learn", "balanced", "--lies", 2, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    for lies in (2, "nan"):
+        assert saca("learn", "balanced", "--lies", lies, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     assert saca("learn", "balanced", "--memory", "a", "--empty-memory", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     (tmp_path / "one").mkdir()
     shutil.copy(ROOT / "scenarios/one_way.toml", tmp_path / "one")

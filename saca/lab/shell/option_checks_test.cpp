@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 namespace saca::shell::option_checks_test {
 namespace {
 
@@ -24,6 +26,24 @@ TEST(Within, TakesTheEndsAndRefusesWhatIsBeyondOrNoNumber) {
   }
   EXPECT_THAT(complaint(check, "fast"), HasSubstr("got no number"));
   EXPECT_EQ(complaint(within(0.1, 1.2, "-"), "2"), "2: want 0.1 to 1.2");  // without a unit
+}
+
+TEST(WholeNumber, TakesWhatFitsAsItWasTyped) {
+  const CLI::Validator natural = whole_number<std::uint64_t>();
+  const CLI::Validator small = whole_number<int>();
+  EXPECT_EQ(natural.get_description(), "");  // help is as without it
+  for (const char* const one : {"0", "7", "18446744073709551615"}) {
+    EXPECT_EQ(complaint(natural, one), "") << one;
+  }
+  for (const char* const one : {"-2147483648", "2147483647"}) {
+    EXPECT_EQ(complaint(small, one), "") << one;
+  }
+  EXPECT_EQ(complaint(natural, "-1"), "want a whole number, 0 to 18446744073709551615, got '-1'");
+  for (const char* const none : {"18446744073709551616", "99999999999999999999999", "010", "0x10",
+                                 "1.5", "1e3", "+1", " 1", "1 ", "many", ""}) {
+    EXPECT_THAT(complaint(natural, none), HasSubstr("want a whole number")) << none;
+  }
+  EXPECT_THAT(complaint(small, "2147483648"), HasSubstr("-2147483648 to 2147483647"));
 }
 
 TEST(OneOf, TellsWhichWordWasLikelyMeant) {
