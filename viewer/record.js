@@ -25,12 +25,12 @@ const first_event = (record, kind) => record.events.find((e) => e.kind === kind)
 
 function read_record(text) {
   const raw = dict(JSON.parse(text));
-  const frames = list(raw.frames).filter((f) => is_number(f.t_s) && f.ego && is_number(f.ego.x_m) && is_number(f.ego.y_m));
-  const events = list(raw.events).filter((e) => is_number(e.t_s)).sort((a, b) => a.t_s - b.t_s);
+  const frames = list(raw.frames).map(dict).filter((f) => is_number(f.t_s) && f.ego && is_number(f.ego.x_m) && is_number(f.ego.y_m));
+  const events = list(raw.events).map(dict).filter((e) => is_number(e.t_s)).sort((a, b) => a.t_s - b.t_s);
   const record = {
     ...raw, frames, events, scenario: dict(raw.scenario), road: dict(raw.road), ego: dict(raw.ego),
-    actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, switches: list(raw.switches).filter((one) => is_number(dict(one).t_s)), review: raw.review ?? null, result: dict(raw.result),
-    hindsight: list(raw.hindsight), intentions: read_intentions(raw.intentions), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
+    actors: list(raw.actors).map(dict), previews: list(raw.previews).map(dict), decision: raw.decision ?? null, switches: list(raw.switches).map(dict).filter((one) => is_number(one.t_s)), review: raw.review ?? null, result: dict(raw.result),
+    hindsight: list(raw.hindsight).map(dict), intentions: read_intentions(raw.intentions), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
   record.start = frames.length ? frames[0].t_s : 0;
   // A contact lies between frames, a late answer may come after the last one.
   record.end = Math.max(record.start, ...frames.slice(-1).map((f) => f.t_s), ...(frames.length ? events : []).map((e) => e.t_s),

@@ -80,6 +80,13 @@ def test_a_record_may_lack_any_part(show, key):
         assert show(record).problems == [], f"{key} {value}"
 
 
+@pytest.mark.parametrize("key", ["frames", "events", "actors", "previews", "switches", "hindsight", "intentions"])
+def test_a_list_may_hold_what_is_no_entry(show, key):
+    record = copy.deepcopy(RECORDS["contact" if key in RECORDS["contact"] else "switched"])
+    record[key] = [*record[key], None, "text"]
+    assert show(record).problems == []
+
+
 def test_numbers_may_be_null(show):
     def without_numbers(value):
         if isinstance(value, dict):

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "saca/base/core/printable.h"
@@ -52,6 +53,23 @@ std::string percent(double probability) {
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
+/// A number that should be that of a list's entry is not.
+class NoSuchEntry : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An entry by its number, which stands elsewhere in the record.
+/// @param key  where
+/// @throws NoSuchEntry  where there is none
+const json& entry(const json& list, const json& number, std::string_view key) {
+  if (!number.is_number_unsigned() || number.get<std::size_t>() >= list.size()) {
+    throw NoSuchEntry(fmt::format("{}: want a number below {}, got {}", key, list.size(),
+                                  formats::JsonReader::shown(number)));
+  }
+  return list.at(number.get<std::size_t>());
+}
+
 /// What became of one plan of a verdict.
 struct PlanVerdict {
   std::string name;
@@ -69,6 +87,8 @@ struct PlanVerdict {
 /// A record, and what all paragraphs look up in it.
 class Story {
  public:
+  using Sentences = std::vector<std::string>;
+
   explicit Story(const json& record) : record_(record), decision_(record.at("decision")) {
     if (decision_.is_null() || decision_.at("verdict").is_null()) {
       return;
@@ -96,24 +116,29 @@ class Story {
     }
   }
 
-  [[nodiscard]] std::vector<Paragraph> told() const {
-    std::vector<Paragraph> all{{"In short", in_short()}, {"What threatened", threatened()}};
+  /// @param about  of the paragraph that is being told, for messages
+  [[nodiscard]] std::vector<Paragraph> told(std::string& about) const {
+    std::vector<Paragraph> all;
+    const auto add = [&](const char* title, Sentences (Story::*tell)() const) {
+      about = title;
+      all.push_back({about, (this->*tell)()});
+    };
+    add("In short", &Story::in_short);
+    add("What threatened", &Story::threatened);
     if (!decision_.is_null()) {
-      all.push_back({"What was believed of the others", believed()});
-      all.push_back({"What each plan was expected to end in", expected()});
-      all.push_back({"Which plans were admissible", admissible()});
-      all.push_back({"What was chosen, and by which rule", chosen()});
-      all.push_back({"Why not the others", not_chosen()});
-      all.push_back({"What was switched", switched()});
+      add("What was believed of the others", &Story::believed);
+      add("What each plan was expected to end in", &Story::expected);
+      add("Which plans were admissible", &Story::admissible);
+      add("What was chosen, and by which rule", &Story::chosen);
+      add("Why not the others", &Story::not_chosen);
+      add("What was switched", &Story::switched);
     }
-    all.push_back({"How it ended", ended()});
-    all.push_back({"What hindsight says", hindsight()});
+    add("How it ended", &Story::ended);
+    add("What hindsight says", &Story::hindsight);
     return all;
   }
 
  private:
-  using Sentences = std::vector<std::string>;
-
   /// The first event of this kind and plane, as it was told then; empty: none.
   [[nodiscard]] std::string event(std::string_view kind, std::string_view plane) const {
     for (const json& one : record_.at("events")) {
@@ -140,7 +165,7 @@ class Story {
     if (number == decision_.end() || number->is_null()) {
       return {};
     }
-    const json& preview = record_.at("previews").at(number->get<std::size_t>());
+    const json& preview = entry(record_.at("previews"), *number, "decision.preview");
     if (!preview.contains("explanation") || preview.at("explanation").is_null()) {
       return {};
     }
@@ -528,8 +553,8 @@ Story::Sentences Story::hindsight() const {
     return {"Nothing was decided, so there is nothing to compare."};
   }
   const json& all = record_.at("hindsight");
-  const json& best = all.at(record_.at("best").get<std::size_t>());
-  const json& own = all.at(decision_.at("policy").get<std::size_t>());
+  const json& best = entry(all, record_.at("best"), "best");
+  const json& own = entry(all, decision_.at("policy"), "decision.policy");
   const auto text_of = [](const json& one) {
     return one.at("harm").is_null()
                ? one.at("text").get<std::string>()
@@ -567,11 +592,14 @@ Result<std::vector<Paragraph>> explanation(std::string_view record, std::string_
     return refuse("schema: want \"saca.record/1\", got " +
                   (schema == document.end() ? "none" : formats::JsonReader::shown(*schema)));
   }
+  std::string about = "the decision";
   try {
-    return Story(document).told();
+    return Story(document).told(about);
+  } catch (const NoSuchEntry& problem) {
+    return refuse(problem.what());
   } catch (const json::exception& problem) {  // a key that is missing or of another type
-    return refuse(
-        fmt::format("want a whole record (saca.record/1), got: {}", one_line(problem.what())));
+    return refuse(fmt::format("want a whole record (saca.record/1), got, for \"{}\": {}", about,
+                              one_line(problem.what())));
   }
 }
 

@@ -238,6 +238,25 @@ TEST(Explanation, RefusesWhatIsNoRecord) {
   EXPECT_THAT(explanation(cut.dump(), "r.json").error().message, HasSubstr("'switches'"));
 }
 
+TEST(Explanation, TellsWhereARecordIsWrong) {
+  const auto refused = [](const char* key, const json& value) {
+    json wrong = record();
+    wrong[json::json_pointer(key)] = value;
+    return explanation(wrong.dump(), "r.json").error().message;
+  };
+  EXPECT_EQ(refused("/decision/policy", 99),
+            "r.json: decision.policy: want a number below 2, got 99");
+  EXPECT_EQ(refused("/best", -1), "r.json: best: want a number below 2, got -1");
+  json of_model = record();
+  of_model["decision"].update({{"source", "model"}, {"preview", 4}});
+  of_model["previews"] = json::array();
+  EXPECT_EQ(explanation(of_model.dump(), "r.json").error().message,
+            "r.json: decision.preview: want a number below 0, got 4");
+  EXPECT_THAT(refused("/thresholds/trigger_s", "soon"), HasSubstr("\"What threatened\": "));
+  EXPECT_THAT(refused("/result/harm", nullptr), HasSubstr("\"How it ended\": "));
+  EXPECT_THAT(refused("/decision/verdict/plans/0/contact", "x"), HasSubstr("\"the decision\": "));
+}
+
 TEST(RecordInWords, TellsWhatBecameOfTheSituationMostAlike) {
   const auto told = [](double similarity, bool not_admissible) {
     json one = record();
