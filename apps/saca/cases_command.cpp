@@ -106,6 +106,7 @@ struct EvalCasesOptions : cases::EvalRequest {
 };
 
 ExitCode eval_cases(const EvalCasesOptions& options) {
+  need_distinct({{"--output", options.output}}, {{"the cases", options.examples.file}});
   need_writable({options.output});
   long_work::watch_for_interrupt();
   const auto [replies, problems, model] = need_whole(cases::evaluate_model(here(), options));
@@ -175,6 +176,7 @@ struct ShowCasesOptions {
 };
 
 void show_cases(const ShowCasesOptions& options) {
+  need_distinct({{"--output", options.output}}, {{"the cases", options.shown.file}});
   need_writable({options.output});
   const auto all = need(cases::read_cases(options.shown.file)).cases;
   const auto inputs = read_inputs(options.car);

@@ -40,6 +40,32 @@ void need_writable(std::initializer_list<fs::path> files) {
   need(long_work::why_outputs_unwritable(files));
 }
 
+bool is_same_file(const fs::path& one, const fs::path& other) {
+  std::error_code problem;
+  if (fs::equivalent(one, other, problem)) {
+    return true;
+  }
+  const fs::path at = fs::weakly_canonical(fs::absolute(one, problem), problem);
+  return !at.empty() && at == fs::weakly_canonical(fs::absolute(other, problem), problem);
+}
+
+void need_distinct(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
+  std::vector<NamedFile> taken = inputs;
+  for (const NamedFile& output : outputs) {
+    std::error_code problem;
+    if (output.file.empty() || fs::is_character_file(output.file, problem)) {
+      continue;
+    }
+    for (const NamedFile& other : taken) {
+      if (!other.file.empty() && is_same_file(output.file, other.file)) {
+        refuse(wrong_command_line, fmt::format("{}: want another file than {}, got {}", output.what,
+                                               other.what, output.file.string()));
+      }
+    }
+    taken.push_back(output);
+  }
+}
+
 void write(const fs::path& file, const std::string& text) {
   need(long_work::write_output(file, text));
 }

@@ -92,6 +92,19 @@ template <class T>
 /// Before long work: that these files can be written; an empty name is none.
 void need_writable(std::initializer_list<fs::path> files);
 
+/// Whether two names are of one file; it need not be there yet.
+[[nodiscard]] bool is_same_file(const fs::path& one, const fs::path& other);
+
+/// A file, and the words of the command line that name it.
+struct NamedFile {
+  std::string what;  ///< "--output", "the record"
+  fs::path file;     ///< empty: none
+};
+/// Before the work: that no output is one of the inputs or another output, over which it would be
+/// written. A device may stand for several.
+void need_distinct(const std::vector<NamedFile>& outputs,
+                   const std::vector<NamedFile>& inputs = {});
+
 /// Leaves a file, in a folder that is made for it.
 void write(const fs::path& file, const std::string& text);
 

@@ -174,6 +174,8 @@ void show_danger(const ShowDangerOptions& options) {
     refuse(wrong_command_line,
            fmt::format("--output: want a name that ends in .png, got '{}'", options.output));
   }
+  need_distinct({{"--output", options.output}},
+                {{"the weights", options.weights}, {"--table", options.table}});
   const auto weights = need(danger_study::read_network(options.weights));
   const auto exact = need(learned_danger::read_exact_point_mass(options.table));
   need_writable({options.output});

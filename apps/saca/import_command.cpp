@@ -20,6 +20,7 @@ struct HundredCarOptions {
 };
 
 void import_one_event(const HundredCarOptions& options) {
+  need_distinct({{"--output", options.output}}, {{"the events", options.path}});
   const auto imported = need(importers::import_hundred_car(options.path, options.request));
   const std::string text = scenario::write_scenario(imported.scenario);
   if (options.output.empty()) {
@@ -96,6 +97,7 @@ struct CommonRoadOptions {
 };
 
 void import_commonroad(const CommonRoadOptions& options) {
+  need_distinct({{"--output", options.output}}, {{"the recording", options.path}});
   const auto imported = need(importers::import_commonroad(options.path, options.request));
   const std::string text = scenario::write_scenario(imported.scenario);
   if (const auto again = scenario::read_scenario(text, options.output); !again.has_value()) {

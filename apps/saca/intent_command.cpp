@@ -22,6 +22,9 @@ struct ExamplesOptions {
 };
 
 void make_examples(const ExamplesOptions& options) {
+  for (const std::string& set : options.request.sets) {
+    need_distinct({{"--output", options.output}}, {{"the sets", set}});
+  }
   need_writable({options.output});
   const auto all = need(intention_study::example_set(options.request, usual_threads()));
   if (const auto rule = intention_scoring::broken_rule(all)) {
@@ -56,6 +59,7 @@ struct EvalIntentOptions {
 };
 
 void evaluate_models(const EvalIntentOptions& options) {
+  need_distinct({{"--svg", options.svg}}, {{"the sequences", options.sequences}});
   const auto set = need(intention_scoring::read_sequences(options.sequences));
   need_writable({options.svg});
   const auto models = need(intention_scoring::read_models(
@@ -115,6 +119,8 @@ struct ShowIntentOptions {
 };
 
 void show_samples(const ShowIntentOptions& options) {
+  need_distinct({{"--output", options.output}},
+                {{"the sequences", options.request.source}, {"--model", options.model}});
   const auto set = need(intention_scoring::read_sequences(options.request.source));
   need_writable({options.output});
   const auto chosen = intention_study::drawn_samples(set, options.request);

@@ -20,6 +20,8 @@ ExitCode climb_ladder(const LadderOptions& options) {
     suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);
   }
   refuse_endings(suite.output, {".html"});
+  need_distinct({{"--output", suite.output}},
+                {{"--memory", suite.thinking.memory}, {"--danger", suite.danger}});
   need_writable({suite.output});
   const std::vector<suites::Rung> rungs = suites::rungs_with(suite.thinking, suite.danger);
   const auto run = need_whole(suites::run_suite(here(), suite, "ladder", suites::names_of(rungs)));

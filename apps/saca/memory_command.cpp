@@ -34,6 +34,10 @@ struct BankOptions {
   std::size_t draws = 64;
   int threads = usual_threads();
   bool quarantined = false;  ///< is checked, too
+  std::string scenario;      ///< of what an expert adds, as the next three
+  std::string why;
+  std::optional<manoeuvre::PolicyId> policy;
+  std::optional<double> at;
   bool as_json = false;
 };
 
@@ -44,6 +48,7 @@ void list_cases(const BankOptions& options) {
 }
 
 void show_case(const BankOptions& options) {
+  need_distinct({{"--svg", options.svg}, {"--html", options.html}}, {{"--memory", options.file}});
   memory::Store memory = need(memory::Store::open_existing(options.file));
   const auto found = need(memory.find(options.id));
   if (!found) {
@@ -66,6 +71,7 @@ void show_case(const BankOptions& options) {
 }
 
 void export_bank(const BankOptions& options) {
+  need_distinct({{"the file of cases", options.cases}}, {{"--memory", options.file}});
   const auto bank = need(banks::read_bank(options.file));
   write(options.cases, memory::cases_text(bank.cases));
   app::print("{}: {} cases\n", options.cases, bank.cases.size());
@@ -77,12 +83,23 @@ void import_into_bank(const BankOptions& options) {
   const auto import = need(banks::import_cases(
       memory, std::move(cases),
       options.keep_trust ? banks::ImportedTrust::kept : banks::ImportedTrust::withdrawn));
-  app::print("{}", text_of(import));
+  tell(options.as_json,
+       nlohmann::json{{"schema", "saca.memory_import/1"},
+                      {"file", import.bank},
+                      {"taken", import.taken},
+                      {"left_out", import.left_out}},
+       text_of(import));
 }
 
 void thin_bank(const BankOptions& options) {
   banks::ReadBank bank = need(banks::read_bank(options.file));
-  app::print("{}", text_of(need(banks::thin(bank, options.most))));
+  const auto thinning = need(banks::thin(bank, options.most));
+  tell(options.as_json,
+       nlohmann::json{{"schema", "saca.memory_thinning/1"},
+                      {"file", thinning.bank},
+                      {"forgotten", thinning.forgotten},
+                      {"left", thinning.left}},
+       text_of(thinning));
 }
 
 void verify_bank(const BankOptions& options) {
@@ -111,17 +128,57 @@ void check_bank(const BankOptions& options) {
   }
 }
 
-/// The commands below, each with the bank as an option.
+void add_case(const BankOptions& options) {
+  if (!is_utf8(options.why)) {
+    refuse(bad_input, "--why: want UTF-8, got " + one_line(options.why));
+  }
+  const auto inputs = read_scenario_inputs(options.scenario);
+  const double time = decision_time(inputs, options.at);
+  const memory::Case one = banks::expert_case(eval::scene_at(inputs.scenario, inputs.car, time),
+                                              {*options.policy, options.why, inputs.scenario.name});
+  memory::Store memory = need(banks::open_to_add(options.file));
+  const memory::LearningResult learnt = need(memory.learn(one));
+  using How = memory::LearningResult::How;
+  nlohmann::json document{{"schema", "saca.memory_addition/1"},
+                          {"file", memory.name()},
+                          {"id", learnt.id},
+                          {"added", learnt.how != How::merged},
+                          {"contradicts", nullptr}};
+  if (learnt.how == How::contradicted) {
+    document["contradicts"] = learnt.other;
+  }
+  tell(options.as_json, std::move(document), banks::text_of(learnt, memory.name()));
+}
+
+using SharedOptions = std::shared_ptr<BankOptions>;
+
+/// A command that does something with one bank, which is an option.
+CLI::App& add_of_bank(CLI::App& memory, const SharedOptions& shared, const char* name,
+                      const char* about, void (*run)(const BankOptions&)) {
+  CLI::App& one = add_command<BankOptions>(memory, name, about, run, shared).line;
+  add(one, "--memory", shared->file, "The memory bank");
+  return one;
+}
+
+void add_adding(CLI::App& memory, const SharedOptions& shared) {
+  CLI::App& command = add_of_bank(
+      memory, shared, "add", "Adds what somebody knows: this scenario wants that policy", add_case);
+  add_scenario(command, shared->scenario);
+  add_policy(command, shared->policy, "What is best there: a number, 0 to 7, or a name")
+      ->required();
+  add(command, "--why", shared->why, "The reason, in a line");
+  add_at(command, shared->at);
+  add_json(command, shared->as_json);
+}
+
+/// The commands of one bank; where it is may stand before them, too.
 void add_bank_commands(CLI::App& memory) {
   const auto shared = std::make_shared<BankOptions>();
-  const auto add_bank = [&](CLI::App& to) { add(to, "--memory", shared->file, "The memory bank"); };
   const auto add_one = [&](const char* name, const char* about,
                            void (*run)(const BankOptions&)) -> CLI::App& {
-    CLI::App& one = add_command<BankOptions>(memory, name, about, run, shared).line;
-    add_bank(one);
-    return one;
+    return add_of_bank(memory, shared, name, about, run);
   };
-  add_bank(memory);
+  add(memory, "--memory", shared->file, "The memory bank");
   add_json(add_one("list", "All cases", list_cases), shared->as_json);
   CLI::App& show = add_one("show", "One case, with its scene, as JSON", show_case);
   add_needed(show, "id", shared->id, "");
@@ -132,11 +189,13 @@ void add_bank_commands(CLI::App& memory) {
   import.add_flag("--keep-trust", shared->keep_trust,
                   "As they were trusted there: for one's own. Else each is used only where a "
                   "rollout confirms it");
+  add_json(import, shared->as_json);
   add_needed(add_one("export", "Writes all cases as JSON Lines", export_bank), "cases",
              shared->cases, "The file");
-  add_needed(
-      add_one("thin", "Forgets cases for which others stand, the most redundant first", thin_bank),
-      "--most", shared->most, "How many are to be left");
+  CLI::App& thin =
+      add_one("thin", "Forgets cases for which others stand, the most redundant first", thin_bank);
+  add_needed(thin, "--most", shared->most, "How many are to be left");
+  add_json(thin, shared->as_json);
   add_json(add_one("verify", "Reads all of the bank, and counts what is in it", verify_bank),
            shared->as_json);
   add_json(
@@ -153,37 +212,7 @@ void add_bank_commands(CLI::App& memory) {
   check.add_flag("--quarantined", shared->quarantined,
                  "Also what is in quarantine: what holds over draws is served again");
   add_json(check, shared->as_json);
-}
-
-struct AddOptions {
-  std::string scenario;
-  std::string file = "runs/memory.sqlite";
-  std::string why;
-  std::optional<manoeuvre::PolicyId> policy;
-  std::optional<double> at;
-};
-
-void add_case(const AddOptions& options) {
-  if (!is_utf8(options.why)) {
-    refuse(bad_input, "--why: want UTF-8, got " + one_line(options.why));
-  }
-  const auto inputs = read_scenario_inputs(options.scenario);
-  const double time = decision_time(inputs, options.at);
-  const memory::Case one = banks::expert_case(eval::scene_at(inputs.scenario, inputs.car, time),
-                                              {*options.policy, options.why, inputs.scenario.name});
-  memory::Store memory = need(banks::open_to_add(options.file));
-  app::print("{}", banks::text_of(need(memory.learn(one)), memory.name()));
-}
-
-void add_adding(CLI::App& memory) {
-  const auto [command, options] = add_command<AddOptions>(
-      memory, "add", "Adds what somebody knows: this scenario wants that policy", add_case);
-  add_scenario(command, options.scenario);
-  add_policy(command, options.policy, "What is best there: a number, 0 to 7, or a name")
-      ->required();
-  add(command, "--why", options.why, "The reason, in a line");
-  add_at(command, options.at);
-  add(command, "--memory", options.file, "The memory bank");
+  add_adding(memory, shared);
 }
 
 struct BuildOptions : banks::SuiteCasesRequest {
@@ -192,6 +221,7 @@ struct BuildOptions : banks::SuiteCasesRequest {
 
 ExitCode build_cases(const BuildOptions& options) {
   const suites::SuiteRequest& from = options.from;
+  need_distinct({{"--output", from.output}}, {{"--journal", from.journal}});
   need_writable({from.output});
   long_work::watch_for_interrupt();
   const auto built = need_whole(banks::suite_cases(here(), options));
@@ -244,6 +274,7 @@ void fit_scales(const CalibrateOptions& options, const banks::CalibrationCases& 
 }
 
 void calibrate(const CalibrateOptions& options) {
+  need_distinct({{"--svg", options.svg}}, {{"the cases", options.cases}});
   need_writable({options.svg});
   const auto cases = need(banks::read_calibration_cases(options.cases, options.checks));
   if (options.fit) {
@@ -279,7 +310,6 @@ void add_calibrating(CLI::App& memory) {
 void add_memory(CLI::App& line) {
   CLI::App& memory = add_group(line, "memory", "What was learnt");
   add_bank_commands(memory);
-  add_adding(memory);
   add_building(memory);
   add_calibrating(memory);
 }

@@ -1,4 +1,5 @@
 #include "apps/saca/options.h"
+#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/policy_study/oracle_report.h"
 #include "saca/lab/policy_study/policy_sheet.h"
 
@@ -20,6 +21,8 @@ void ask_oracle(const OracleOptions& options) {
     refuse(wrong_command_line, "--draws: want 0, or 2 at least, got 1");
   }
   const auto inputs = read_scenario_inputs(options.scenario);
+  need_distinct({{"--svg", options.svg}},
+                {{"the scenario", need(installation::find_scenario(here(), options.scenario))}});
   const double time = decision_time(inputs, options.at);
   need_writable({options.svg});
   const scenario::Scenario& scenario = inputs.scenario;

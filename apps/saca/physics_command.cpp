@@ -33,10 +33,12 @@ void add_physics(CLI::App& line) {
   const auto [command, options] = add_command<PhysicsOptions>(
       line, "physics", "The car's stops, lane changes and drifts beside an independent reference",
       tell_physics);
-  add(command, "--drift-draws", options.drift_draws,
-      "Also a table of T-drifts over car, speed and grip, each so many times",
-      CLI::Range(0, 1'000'000));
-  add(command, "--car", options.cars, "Cars of that table: files, or names of shipped ones");
+  CLI::Option* const draws =
+      add(command, "--drift-draws", options.drift_draws,
+          "Also a table of T-drifts over car, speed and grip, each so many times",
+          CLI::Range(0, 1'000'000));
+  add(command, "--car", options.cars, "Cars of that table: files, or names of shipped ones")
+      ->needs(draws);
   add(command, "--seed", options.seed, "Of the draws");
   add_threads(command, options.threads);
   add_json(command, options.as_json);

@@ -56,6 +56,8 @@ struct CompareOptions {
 void compare_values(const CompareOptions& options) {
   using Format = reach_study::AuthorsRequest::Format;
   need_png_or_html(options.output);
+  need_distinct({{"--output", options.output}},
+                {{"the values", options.file}, {"--network", options.network}});
   const auto solved = need(danger::read_solved(options.file));
   need(reach_study::why_not_comparable(solved, options.file));
   need_writable({options.output});
@@ -153,6 +155,7 @@ struct ShowReachOptions {
 
 void show_value(const ShowReachOptions& options) {
   need_png_or_html(options.output);
+  need_distinct({{"--output", options.output}}, {{"the values", options.file}});
   const auto at = need_of_line(reach_study::axis_values(options.course, options.speed, options.at));
   const auto solved = need(danger::read_solved(options.file));
   need_writable({options.output});

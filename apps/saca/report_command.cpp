@@ -1,5 +1,6 @@
 #include "apps/saca/options.h"
 #include "saca/base/core/file.h"
+#include "saca/lab/report/record_in_words.h"
 #include "saca/lab/report/record_page.h"
 
 namespace saca::app {
@@ -11,15 +12,14 @@ struct ReportOptions {
 };
 
 void render(const ReportOptions& options) {
-  const std::string text = need(read_file(options.record, many_bytes));
-  const auto page = report::html_report(text);
-  if (!page.has_value()) {
-    refuse({page.error().code, options.record + ": " + page.error().message});
-  }
   const fs::path file = options.output.empty()
                             ? fs::path(options.record).replace_filename("report.html")
                             : fs::path(options.output);
-  write(file, page.value());
+  need_distinct({{"--output", file}}, {{"the record", options.record}});
+  const std::string text = need(read_file(options.record, many_bytes));
+  // What cannot be told of is no whole record.
+  (void)need(report::explanation(text, options.record));
+  write(file, need(report::html_report(text)));
   app::print("Report: {}\n", fs::absolute(file).string());
 }
 

@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "apps/saca/options.h"
+#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/long_work/interrupt.h"
 #include "saca/lab/runs/look_back.h"
 #include "saca/lab/runs/run_means.h"
@@ -27,7 +28,30 @@ std::string wrong_trace_name(const std::string& name) {
              : "want a file that ends in .jsonl or .csv, got `" + name + "`";
 }
 
+/// That a review can be made, and that nothing which the run leaves would be written over something
+/// that it needs or leaves as well.
+void need_possible(const RunOptions& options) {
+  const runs::RunRequest& request = options.run;
+  if (options.review && request.model == "off") {
+    refuse(wrong_command_line, "--review: want a language model that looks back, got --llm off");
+  }
+  constexpr std::string_view replay = "replay:";
+  const bool is_replay = request.model.starts_with(replay);
+  const std::string scenario = read_scenario_inputs(request.scenario).scenario.name;
+  const runs::RunFiles files = runs::files_of(request, scenario);
+  need_distinct({{"the record", files.record},
+                 {request.report.empty() ? "the report" : "--report", files.report},
+                 {"--trace", files.trace},
+                 {"--tape", files.tape},
+                 {"--record-replies", request.record_replies}},
+                {{"the scenario", need(installation::find_scenario(here(), request.scenario))},
+                 {"--memory", options.no_memory ? "" : request.memory},
+                 {"--llm", is_replay ? request.model.substr(replay.size()) : ""},
+                 {"--atlas", request.atlas}});
+}
+
 void run(const RunOptions& options) {
+  need_possible(options);
   runs::RunRequest request = options.run;
   request.command = shell::invocation();
   request.date = shell::now_in_utc();
@@ -47,7 +71,9 @@ void run(const RunOptions& options) {
   story.ending(*setup.scenario, record, runs::in_short(text));
   // What was played is written down even if nobody wants to wait for the review.
   long_work::watch_for_interrupt();
-  if (options.review) {
+  if (options.review && setup.model == nullptr) {
+    complain("no review: there is no language model that could look back");
+  } else if (options.review) {
     if (const auto problem = runs::look_back_until_interrupted(setup, record, story)) {
       complain("no review: " + problem->message);
     }

@@ -136,6 +136,13 @@ void write_encounter(const SuiteOptions& options) {
   refuse_options(options, {"--t1-s", "--waiting-cost"},
                  "`saca run`, which plays what --replay writes, has T1 and cost of waiting as they "
                  "ship");
+  refuse_options(options, {"--output"},
+                 "--replay writes the encounter below runs/, under its own name");
+  if (given(options, "--count") &&
+      *options.replay >= static_cast<std::uint64_t>(options.suite.count)) {
+    refuse(wrong_command_line, fmt::format("--replay: want an encounter below --count {}, got {}",
+                                           options.suite.count, *options.replay));
+  }
   const auto source = need(suites::open_encounters(here(), options.suite, "suite"));
   const auto replay = need(suites::replay_of(source, options.suite, *options.replay));
   write(replay.file, replay.text);
@@ -154,6 +161,8 @@ ExitCode play_suite(const SuiteOptions& options) {
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
   }
   refuse_endings(suite.output, {".json", ".html"});
+  need_distinct({{"--output", suite.output}},
+                {{"--memory", suite.thinking.memory}, {"--danger", suite.danger}});
   need_writable({suite.output});
   const auto run = need_whole(suites::run_suite(here(), suite, "suite", methods));
   const suites::SuiteResult result = suites::result_of(run, suite.seed);

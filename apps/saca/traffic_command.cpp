@@ -39,6 +39,9 @@ void pack(const PackOptions& options) {
     refuse(bad_input,
            fmt::format("{}: want files *{}, got none", options.places.front(), source.ending));
   }
+  for (const fs::path& file : files) {
+    need_distinct({{"--output", options.output}}, {{"a recording", file}});
+  }
   need_writable({options.output});
   long_work::watch_for_interrupt();
   SteadyClock clock;

@@ -56,6 +56,7 @@ void tune_car(const TuneOptions& given) {
   const fs::path from = need(installation::find_car(here(), options.from));
   const auto start = need(vehicle_study::read_start(car, prepare::tuning_path(from)));
   const fs::path output = options.output.empty() ? usual : fs::path(options.output);
+  need_distinct({{"--output", output}}, {{"--car", car}});
   need_writable({output});
   find_tuning(options, output, start);
 }

@@ -19,11 +19,6 @@ struct FitOptions {
   bool as_json = false;
 };
 
-bool is_same_file(const fs::path& one, const fs::path& other) {
-  std::error_code problem;
-  return fs::equivalent(one, other, problem);  // false where one of them is not there
-}
-
 void fit_car(const FitOptions& options) {
   const fs::path file = need(installation::find_car(here(), options.car));
   if (is_same_file(options.output, file) && !options.force) {
@@ -69,7 +64,9 @@ struct TestDriveOptions {
 };
 
 void drive_test(const TestDriveOptions& options) {
-  const auto car = need(prepare::read_vehicle(need(installation::find_car(here(), options.car))));
+  const fs::path file = need(installation::find_car(here(), options.car));
+  need_distinct({{"--output", options.output}}, {{"--car", file}});
+  const auto car = need(prepare::read_vehicle(file));
   tune::TestDrive drive = options.drive;
   drive.kind = options.kind == "brake" ? tune::TestKind::brake : tune::TestKind::steer;
   drive.steering = from_degrees(options.steering_deg);

@@ -1,4 +1,5 @@
 #include "apps/saca/options.h"
+#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/policy_study/whatif_cells.h"
 #include "saca/lab/policy_study/whatif_picture.h"
 #include "saca/lab/policy_study/whatif_report.h"
@@ -20,6 +21,8 @@ void map_policies(const WhatifOptions& options) {
     throw CLI::ValidationError("--vary", "at most twice");
   }
   const auto inputs = read_scenario_inputs(options.scenario);
+  need_distinct({{"--svg", options.svg}},
+                {{"the scenario", need(installation::find_scenario(here(), options.scenario))}});
   auto axes = need(policy_study::axes_of(options.vary, inputs.scenario));
   const double time = decision_time(inputs, options.at);
   need_writable({options.svg});

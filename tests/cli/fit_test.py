@@ -51,6 +51,8 @@ def test_a_car_is_fitted_to_its_logs(own_car):
 def test_a_fit_writes_over_its_base_only_by_force_and_over_a_log_never(own_car):
     before = (own_car / "base.toml").read_text()
     assert "--force" in one_error(fit("brake.csv", output="./base.toml", cwd=own_car), WRONG_COMMAND_LINE)
+    told = one_error(saca("vehicle", "test-drive", "brake", "--car", "base.toml", "--output", "base.toml", cwd=own_car), WRONG_COMMAND_LINE)
+    assert "--output: want another file than --car, got base.toml" in told
     assert "is a log" in one_error(fit("brake.csv", output="brake.csv", cwd=own_car), WRONG_COMMAND_LINE)
     assert (own_car / "base.toml").read_text() == before
     assert fit("brake.csv", "--force", output="base.toml", cwd=own_car).returncode == SUCCESS

@@ -11,8 +11,8 @@ import time
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import (BAD_INPUT, CANNOT_WRITE, NOTHING_TO_DECIDE, PROGRAM, ROOT, SUCCESS, TOO_SLOW, figures, one_error, quick,
-                     saca)
+from program import (BAD_INPUT, CANNOT_WRITE, NOTHING_TO_DECIDE, PROGRAM, ROOT, SUCCESS, TOO_SLOW, WRONG_COMMAND_LINE, figures, one_error,
+                     quick, saca)
 
 
 @pytest.mark.parametrize("arguments", [
@@ -33,6 +33,49 @@ def test_an_output_that_cannot_be_is_told_before_the_work(arguments, tmp_path):
     assert "file" in one_error(run, CANNOT_WRITE)
     assert time.monotonic() - begin < 30  # hours of work, most of them
     assert (tmp_path / "file").read_text() == "what was there" and sorted(path.name for path in tmp_path.iterdir()) == ["file"]
+
+
+SMALL = ROOT / "saca/lab/recordings/testdata/commonroad_small.xml"
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("run", "s.toml", "--report", "s.toml"), "--report: want another file than the scenario, got s.toml"),
+    (("run", "s.toml", "--report", "runs/../runs/intersection_t1/record.json"), "--report: want another file than the record"),
+    (("run", "s.toml", "--tape", "one.csv", "--trace", "one.csv"), "--tape: want another file than --trace, got one.csv"),
+    (("run", "s.toml", "--memory", "m.sqlite", "--tape", "m.sqlite"), "--tape: want another file than --memory, got m.sqlite"),
+    (("report", "r.json", "-o", "link.json"), "--output: want another file than the record, got link.json"),
+    (("report", "report.html"), "--output: want another file than the record, got report.html"),
+    (("import", "commonroad", "small.xml", "--output", "small.xml"), "--output: want another file than the recording, got small.xml"),
+    (("oracle", "s.toml", "--svg", "s.toml"), "--svg: want another file than the scenario, got s.toml"),
+    (("whatif", "s.toml", "--vary", "grip=0.5:0.9:0.4", "--svg", "s.toml"), "--svg: want another file than the scenario, got s.toml"),
+])
+def test_no_output_is_written_over_an_input_or_another_output(arguments, words, tmp_path):
+    (tmp_path / "s.toml").write_text((ROOT / "scenarios/intersection_t1.toml").read_text())
+    (tmp_path / "small.xml").write_text(SMALL.read_text())
+    for record in ("r.json", "report.html"):
+        (tmp_path / record).write_text("a record")
+    (tmp_path / "link.json").symlink_to("r.json")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert words in one_error(saca(*arguments, cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+@pytest.mark.parametrize("arguments", [
+    ("suite", "balanced", "--seed", "-1"), ("suite", "balanced", "--seed", "99999999999999999999999"), ("run", "one_way", "--seed", "-1"),
+    ("memory", "thin", "--most", "-5"), ("import", "commonroad", SMALL, "--output", "a.toml", "--ego", "99999999999999999999"),
+    ("forecast", "show", "head_on", "--who", "van1", "--at-s", "4", "-o", "a.svg", "--encounter", "-1"), ("oracle", "one_way", "--seed", "0x10"),
+    ("suite", "balanced", "--replay", "1.5"), ("memory", "show", "010"),
+])
+def test_a_whole_number_that_does_not_fit_is_refused_and_not_changed(arguments, tmp_path):
+    assert "want a whole number, " in one_error(saca(*arguments, cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_option_is_passed_over_silently(tmp_path):
+    told = one_error(saca("run", "one_way", "--llm", "off", "--review", cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert "--review: want a language model" in told
+    told = one_error(saca("physics", "--car", "nosuch", cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert "--car" in told and "--drift-draws" in told
 
 
 def test_an_output_takes_the_folders_that_it_needs(tmp_path):

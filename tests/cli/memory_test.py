@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, CANNOT_WRITE, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
 
 COUNT = 6
 
@@ -91,6 +91,28 @@ def test_an_expert_adds_what_is_then_found_and_looked_at(tmp_path):
     assert "case 2, which contradicts case 1" in other.stdout
 
 
+def test_a_case_is_added_to_the_bank_that_stands_before_the_command(tmp_path):
+    added = figures(saca("memory", "--memory", "bank.db", "add", "intersection_t1", "--policy", "4", "--json", cwd=tmp_path))
+    assert added == {"schema": "saca.memory_addition/1", "file": "bank.db", "id": 1, "added": True, "contradicts": None}
+    assert [one["id"] for one in figures(saca("memory", "list", "--memory", "bank.db", "--json", cwd=tmp_path))] == [1]
+    assert not (tmp_path / "runs").exists()
+    again = figures(saca("memory", "add", "intersection_t1", "--policy", "4", "--memory", "bank.db", "--json", cwd=tmp_path))
+    assert (again["id"], again["added"]) == (1, False)
+    other = figures(saca("memory", "add", "intersection_t1", "--policy", "0", "--memory", "bank.db", "--json", cwd=tmp_path))
+    assert (other["id"], other["added"], other["contradicts"]) == (2, True, 1)
+
+
+def test_what_is_drawn_or_written_is_not_written_over_the_bank(cases, tmp_path):
+    saca("memory", "import", str(cases), "--memory", "bank.db", cwd=tmp_path)
+    before = (tmp_path / "bank.db").read_bytes()
+    for arguments in (("export", "bank.db"), ("export", "./bank.db"), ("show", 1, "--svg", "bank.db"), ("show", 1, "--html", tmp_path / "bank.db")):
+        told = one_error(saca("memory", *arguments, "--memory", "bank.db", cwd=tmp_path), WRONG_COMMAND_LINE)
+        assert "want another file than --memory, got" in told and "bank.db" in told
+    told = one_error(saca("memory", "show", 1, "--svg", "a", "--html", "b/../a", "--memory", "bank.db", cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert "--html: want another file than --svg" in told
+    assert (tmp_path / "bank.db").read_bytes() == before
+
+
 def test_what_cannot_be_added_is_told(tmp_path):
     assert "intersection" in one_error(saca("memory", "add", "intersectoin_t1", "--policy", "4", cwd=tmp_path), BAD_INPUT)
     assert saca("memory", "add", "intersection_t1", "--policy", "9", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
@@ -106,6 +128,8 @@ def test_what_comes_from_elsewhere_is_not_trusted(cases, tmp_path):
     assert {one["trust"] for one in listed} == {"unchecked"} and {one["origin"] for one in listed} == {"simulation"}
     again = saca("memory", "--memory", "bank.db", "import", str(cases), cwd=tmp_path)
     assert again.returncode == SUCCESS and f"0 cases taken over, {len(listed)} were there already" in again.stdout
+    told = figures(saca("memory", "--memory", "bank.db", "import", str(cases), "--json", cwd=tmp_path))
+    assert told == {"schema": "saca.memory_import/1", "file": "bank.db", "taken": 0, "left_out": len(listed)}
     assert len(json.loads(saca("memory", "--memory", "bank.db", "list", "--json", cwd=tmp_path).stdout)) == len(listed)
     assert "[unchecked]" in saca("memory", "--memory", "bank.db", "list", cwd=tmp_path).stdout
 
@@ -219,6 +243,8 @@ def test_who_wants_a_smaller_bank_loses_what_others_stand_for(cases, tmp_path):
     assert thinned.returncode == SUCCESS and f"1 cases forgotten, {count - 1} left" in thinned.stdout, thinned.stdout + thinned.stderr
     thinned = saca("memory", "thin", "--most", "0", "--memory", "bank.db", cwd=tmp_path)
     assert "nothing else is stood for by another" in thinned.stdout
+    told = figures(saca("memory", "thin", "--most", "0", "--memory", "bank.db", "--json", cwd=tmp_path))
+    assert (told["schema"], told["file"]) == ("saca.memory_thinning/1", "bank.db") and told["forgotten"] >= 0 and 0 < told["left"] < count
     assert "there is no such memory bank" in one_error(saca("memory", "thin", "--most", "1", "--memory", "none.db", cwd=tmp_path), BAD_INPUT)
 
 

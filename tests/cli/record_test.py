@@ -87,6 +87,15 @@ def test_what_is_no_record_or_cannot_be_written_is_refused(played, tmp_path):
                         ("old.json", "made: want who made the record"), ("half.json", "made: want it whole")):
         assert words in one_error(saca("verify", file, cwd=tmp_path), BAD_INPUT)
     assert "other.json" in one_error(saca("report", "other.json", cwd=tmp_path), BAD_INPUT)
+    for file, (key, value) in {"frames.json": (("frames",), "no"), "policy.json": (("decision", "policy"), 99),
+                               "trigger.json": (("thresholds", "trigger_s"), "soon")}.items():
+        wrong = json.loads(record_of(folder).read_text())
+        (wrong if len(key) == 1 else wrong[key[0]])[key[-1]] = value
+        (tmp_path / file).write_text(json.dumps(wrong))
+    for file in ("none.json", "frames.json", "policy.json", "trigger.json"):
+        refusals = {one_error(saca(command, file, cwd=tmp_path), BAD_INPUT) for command in ("report", "explain")}
+        assert len(refusals) == 1 and file in refusals.pop()
+    assert not list(tmp_path.glob("*.html"))
     (tmp_path / "file").write_text("")
     assert "file" in one_error(saca("report", record_of(folder), "--output", "file/page.html", cwd=tmp_path), CANNOT_WRITE)
 

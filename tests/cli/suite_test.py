@@ -124,8 +124,14 @@ def test_a_journal_of_other_work_is_refused(tmp_path):
     (["suite", "traffic", "--data", ".", "--replay", "3"], WRONG_COMMAND_LINE, "--replay: SACA alone watches"),
     (["suite", "balanced", "--output", "a.json"], WRONG_COMMAND_LINE, "does not end in .json, which is written beside it, got 'a.json'"),
     (["suite", "balanced", "--output", "a.html"], WRONG_COMMAND_LINE, "does not end in .html"),
+    (["suite", "balanced", "--output", "m.sqlite", "--memory", "m.sqlite"], WRONG_COMMAND_LINE, "--output: want another file than --memory, got m.sqlite"),
+    (["ladder", "balanced", "--output", "m.sqlite", "--memory", "m.sqlite"], WRONG_COMMAND_LINE, "--output: want another file than --memory, got m.sqlite"),
     (["ladder", "balanced", "--output", "a.html"], WRONG_COMMAND_LINE, "does not end in .html"),
     (["suite", "balanced", "--waiting-cost", "-1"], WRONG_COMMAND_LINE, "--waiting-cost"),
+    (["suite", "balanced", "--waiting-cost", "nan"], WRONG_COMMAND_LINE, "--waiting-cost"),
+    (["suite", "balanced", "--t1-s", "nan"], WRONG_COMMAND_LINE, "--t1-s"),
+    (["suite", "balanced", "--replay", "7", "--count", "1"], WRONG_COMMAND_LINE, "--replay: want an encounter below --count 1, got 7"),
+    (["suite", "balanced", "--replay", "0", "--output", "a.h5"], WRONG_COMMAND_LINE, "--output: --replay writes"),
 ])
 def test_what_cannot_be_run_is_refused(tmp_path, arguments, code, wanted):
     run = saca(*arguments, cwd=tmp_path)
