@@ -178,7 +178,7 @@ TEST(ActorTrack, ChanceRunsThroughAMotionFasterFromATimeOn) {
   Chance chance;
   chance.from = 2.0;
   chance.actors[0].speed = 1.5;
-  const Scenario scenario = with(script(8.0, Behaviour::brake, 4.0, 3.0));
+  const Scenario scenario = with(script(8.0, Behaviour::brake, 3.5, 3.0));
   const world::Track asked = actor_track(scenario, 0, step);
   const world::Track drawn = actor_track(scenario, 0, step, chance);
   for (const double time : {0.5, 2.0, 2.5, 3.5}) {

@@ -116,6 +116,13 @@ void keep_waiting_cost(reflex::Verdict& verdict, const std::optional<double>& co
   }
 }
 
+reflex::JudgedPlan judged_by_half(const preview::ExpectedHarm& one) {
+  return {.plan = one.plan,
+          .drivable = one.refusal.empty(),
+          .harm = one.harm_by_half,
+          .contact = one.contact_by_half};
+}
+
 // ---- What cues of a scene stand for
 
 /// Where doing nothing is admissible: the one plan that takes no wheel.
@@ -123,8 +130,9 @@ bool speaks_for_nothing(const reflex::Verdict& verdict) {
   return reflex::plan_of(verdict) == manoeuvre::doing_nothing;
 }
 
-/// Adds what a supposition makes of each plan: its harm there less that as seen, as likely as it
-/// is. Who tries there what cannot be driven slides on: it counts as doing nothing does.
+/// Adds what a supposition makes of each plan: its harm there less that as seen, by the same draws,
+/// as likely as it is. Who tries there what cannot be driven slides on: it counts as doing nothing
+/// does.
 void mix_in(reflex::Verdict& verdict, const reflex::Verdict& as_seen,
             const reflex::Verdict& supposed, double probability) {
   const reflex::JudgedPlan* const sliding = reflex::find_plan(supposed, manoeuvre::doing_nothing);
@@ -173,12 +181,12 @@ reflex::Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& bel
   const preview::Suppositions all = tools_.cues == nullptr || scene.cues.empty()
                                         ? preview::Suppositions()
                                         : preview::suppositions(scene, beliefs, *tools_.cues);
-  const Depth of_seen{.draws = num_draws_, .later = true, .may_be_short = all.empty()};
-  const reflex::Verdict as_seen = judge_as_seen(scene, beliefs, under_way, of_seen);
-  if (all.empty() || speaks_for_nothing(as_seen)) {
-    return as_seen;
+  const Depth of_seen{.half = false, .later = true, .may_be_short = all.empty()};
+  const BothDepths seen = judge_as_seen(scene, beliefs, under_way, of_seen);
+  if (all.empty() || speaks_for_nothing(seen.verdict)) {
+    return seen.verdict;
   }
-  reflex::Verdict verdict = as_seen;
+  reflex::Verdict verdict = seen.verdict;
   const auto note = [](reflex::JudgedPlan& one) {
     one.as_seen = one.drivable ? std::optional(one.harm) : std::nullopt;
   };
@@ -186,28 +194,31 @@ reflex::Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& bel
   if (verdict.under_way) {
     note(*verdict.under_way);
   }
-  // By the same draws as what is seen, so that nothing but the supposition makes a difference.
-  const Depth of_supposed{.draws = num_draws_, .later = false, .may_be_short = false};
+  const Depth of_supposed{.half = true, .later = false, .may_be_short = false};
   for (const preview::Supposition& one : all) {
-    reflex::Verdict supposed = judge_as_seen(one.scene, one.beliefs, under_way, of_supposed);
+    reflex::Verdict supposed =
+        judge_as_seen(one.scene, one.beliefs, under_way, of_supposed).verdict;
     if (one.is_slippery) {
       supposed.under_way.reset();
     }
-    mix_in(verdict, as_seen, supposed, one.probability);
+    mix_in(verdict, seen.by_half, supposed, one.probability);
   }
-  keep_waiting_cost(verdict, reflex::cost_of_waiting(as_seen));
+  keep_waiting_cost(verdict, reflex::cost_of_waiting(seen.verdict));
   return verdict;
 }
 
-reflex::Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& beliefs,
-                                          const std::optional<reflex::UnderWay>& under_way,
-                                          const Depth& depth) const {
-  const auto draws = draws_of(scene, beliefs, depth.draws);
+Forecaster::BothDepths Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& beliefs,
+                                                 const std::optional<reflex::UnderWay>& under_way,
+                                                 const Depth& depth) const {
+  auto draws = draws_of(scene, beliefs, num_draws_);
+  draws.resize(depth.half ? (num_draws_ + 1) / 2 : num_draws_);
   const preview::PreparedMotions motions(scene, draws, tools_);
-  reflex::Verdict verdict{.time = scene.time};
+  BothDepths both{.verdict = {.time = scene.time}, .by_half = {.time = scene.time}};
+  reflex::Verdict& verdict = both.verdict;
   const auto judge_plans = [&](std::span<const manoeuvre::Plan> plans) {
     for (const preview::ExpectedHarm& one : motions.harms(plans)) {
       verdict.plans.push_back(judged(one));
+      both.by_half.plans.push_back(judged_by_half(one));
     }
   };
   if (depth.may_be_short && under_way && under_way->plan.policy == manoeuvre::PolicyId::aeb) {
@@ -216,9 +227,10 @@ reflex::Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beli
     reflex::spread_over_strengths(verdict);
     if (reflex::find_plan(verdict, under_way->plan)->harm < reflex::material_harm) {
       judge_plans({&manoeuvre::doing_nothing, 1});
-      return verdict;
+      return both;
     }
     verdict.plans.clear();
+    both.by_half.plans.clear();
   }
   const forecast::Plans plans = forecast::all_plans(scene.ego.v_B.x, tools_.braking);
   judge_plans({plans.begin(), plans.size()});
@@ -227,13 +239,15 @@ reflex::Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beli
   }
   const auto cost = reflex::cost_of_waiting(verdict);
   reflex::spread_over_strengths(verdict);
+  reflex::spread_over_strengths(both.by_half);
   keep_waiting_cost(verdict, cost);
   if (under_way && reflex::has_past(under_way->plan)) {
     preview::ExpectedHarm rest = motions.harm(rest_of(*under_way, scene, *tools_.car));
     rest.plan = under_way->plan;
     verdict.under_way = judged(rest);
+    both.by_half.under_way = judged_by_half(rest);
   }
-  return verdict;
+  return both;
 }
 
 reflex::JudgedPlan judged(const preview::ExpectedHarm& one) {

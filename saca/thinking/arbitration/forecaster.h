@@ -50,8 +50,9 @@ class Forecaster {
   explicit Forecaster(const preview::ForecastTools& tools, std::size_t num_draws = usual_draws);
 
   /// Where the scene has cues, what they stand for is reckoned with, by ForecastTools::cues
-  /// (preview::suppositions): each is judged by itself, over half of the draws, and harms are the
-  /// mean over them and what is seen, as likely as they are.
+  /// (preview::suppositions): each is judged by itself, over half of the draws, and held against
+  /// what is seen in the same half; harms are the mean over them and what is seen, as likely as
+  /// they are.
   ///
   /// * Suppositions are only added: everybody who is seen counts as without.
   /// * A cue alone never takes the wheel, nor keeps it: where without it the verdict speaks for
@@ -76,14 +77,17 @@ class Forecaster {
  private:
   /// How much of a verdict is worked out.
   struct Depth {
-    std::size_t draws = usual_draws;
+    bool half = false;         ///< by the first half of the draws (rounded up)
     bool later = true;         ///< Verdict::later, too
     bool may_be_short = true;  ///< see judge: while braking that harms little is under way
   };
-  [[nodiscard]] reflex::Verdict judge_as_seen(const world::Scene& scene,
-                                              const intent::Beliefs& beliefs,
-                                              const std::optional<reflex::UnderWay>& under_way,
-                                              const Depth& depth) const;
+  struct BothDepths {
+    reflex::Verdict verdict;
+    reflex::Verdict by_half;  ///< its plans and the one under way by the first half of the draws
+  };
+  [[nodiscard]] BothDepths judge_as_seen(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                         const std::optional<reflex::UnderWay>& under_way,
+                                         const Depth& depth) const;
 
   preview::ForecastTools tools_;
   std::size_t num_draws_;

@@ -34,8 +34,9 @@ struct OpenAiModelSettings {
 /// without them, at once and from then on.
 ///
 /// Asked again, after 50 ms, then after twice as long each time, or when the server says: busy
-/// servers (429, 500, 502 to 504) and connections that failed before any text. Neither redirects
-/// nor proxies are followed: the key goes to the named host only. No environment is read.
+/// servers (429, 500, 502 to 504) and connections that failed before any text. A server that took
+/// no connection in seven tries is given up until the next question. Neither redirects nor proxies
+/// are followed: the key goes to the named host only. No environment is read.
 ///
 /// Settings that cannot be used make every question fail (malformed). Messages are one line and
 /// hold neither key nor password.

@@ -306,11 +306,18 @@ std::vector<ExpectedHarm> PreparedMotions::harms_later(
 ExpectedHarm PreparedMotions::harm(const EgoMotion& way) const {
   HeldWay held(scene_, way, *tools_.harm);
   ExpectedHarm expected;
+  const std::size_t half = (motions_.size() + 1) / 2;
   const double sum = weight_of(motions_);
+  const double sum_of_half = weight_of(motions_.first(half));
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     const collision::Outcome outcome = held.against(movers_[k]);
+    const double contact = outcome.contact ? 1.0 : 0.0;
     expected.harm += motions_[k].probability / sum * outcome.harm;
-    expected.contact += outcome.contact ? motions_[k].probability / sum : 0.0;
+    expected.contact += motions_[k].probability / sum * contact;
+    if (k < half) {
+      expected.harm_by_half += motions_[k].probability / sum_of_half * outcome.harm;
+      expected.contact_by_half += motions_[k].probability / sum_of_half * contact;
+    }
   }
   return expected;
 }

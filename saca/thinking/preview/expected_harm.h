@@ -47,6 +47,10 @@ struct ExpectedHarm {
   std::string refusal;   ///< empty when the plan can be driven; else the rest means nothing
   double harm = 0.0;     ///< mean over the joint motions
   double contact = 0.0;  ///< likewise: probability of contact
+  /// Of PreparedMotions alone: both over the first half of the joint motions (halves rounded up),
+  /// to be held against what is worked out for those only.
+  double harm_by_half = 0.0;
+  double contact_by_half = 0.0;
 
   /// What it ends in under one more joint motion, which has this share of the mean; or why it
   /// cannot be driven.
