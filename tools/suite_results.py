@@ -301,7 +301,8 @@ def section(figures):
 def page_of(runs):
     head = ("# Suites, ladders, forecasts, tables, recalls and replies\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
             "below printed: no figure here is typed by hand. What the words mean: docs/formats.md, section Suite. `regret` is the harm above that "
-            "of the best plan begun at T1 with full knowledge; materially worse means by more than 0.005.\n\n")
+            "of the best plan begun at T1 with full knowledge; materially worse means by more than 0.005. Rows of `rss_steering` and `fsm` that were made "
+            "before commit 5e3d1f80 are of rules that did less than their sources say (decisions/0038).\n\n")
     named = [Figures(run, f"docs/suites.json, `{run.get('meta.command')}`") for run in runs]
     return head + "\n\n".join(section(one) for one in named) + "\n"
 
