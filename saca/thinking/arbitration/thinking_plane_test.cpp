@@ -43,6 +43,23 @@ class Thinking : public testing::Test {
     scene.actors.push_back(test::car(1, {70.0, 0.0}));
     return scene;
   }
+  /// A car at 6 m/s 62 m ahead in the ego's lane, and a wreck in the next, 160 m ahead.
+  static Scene slow_car_and_wreck() {
+    Scene scene = wreck_ahead();
+    scene.grip = test::ego_at(20.0).grip;
+    scene.actors[0] = test::car(1, {62.0, 0.0}, {6.0, 0.0});
+    scene.actors.push_back(test::car(2, {160.0, 3.5}));
+    return scene;
+  }
+  /// Of those two: the car goes on or brakes, the wreck stays.
+  static intent::Beliefs car_may_brake() {
+    intent::Beliefs beliefs;
+    beliefs.push_back({});
+    beliefs.push_back({});
+    beliefs[0].at.fill({0.6, 0.0, 0.0, 0.4});
+    beliefs[1].at.fill({1.0, 0.0, 0.0, 0.0});
+    return beliefs;
+  }
   static const manoeuvre::Car& car() {
     static const manoeuvre::Car it = prepare::default_car();
     return it;
@@ -295,17 +312,8 @@ TEST_F(Thinking, AsksAgainAboutAForecastThatHasNoAnswerAmongOthersThatHave) {
       },
       clock_);
   ThinkingPlane thinking = plane(&model);
-  Scene scene = test::ego_at(20.0, manoeuvre::footprint(car()));
-  scene.ego_mass = car().mass;
-  scene.road.left_edge = 5.25;
-  scene.road.right_edge = -5.25;
-  scene.actors.push_back(test::car(1, {62.0, 0.0}, {6.0, 0.0}));
-  scene.actors.push_back(test::car(2, {160.0, 3.5}));
-  intent::Beliefs beliefs;
-  beliefs.push_back({});
-  beliefs.push_back({});
-  beliefs[0].at.fill({0.6, 0.0, 0.0, 0.4});
-  beliefs[1].at.fill({1.0, 0.0, 0.0, 0.0});
+  Scene scene = slow_car_and_wreck();
+  const intent::Beliefs beliefs = car_may_brake();
   const auto asks_about = [&] {
     const int before = model.num_asked();
     thinking.think(scene, beliefs, clock_.now());
@@ -470,18 +478,9 @@ TEST_F(Thinking, WithdrawsNoQuestionWhoseOtherForecastsCannotBeAskedAnew) {
                                                  .policy = PolicyId::aes_left});
     language_model::ScriptedModel model(reply, clock_);
     ThinkingPlane thinking = plane(&model);
-    Scene scene = test::ego_at(20.0, manoeuvre::footprint(car()));
+    Scene scene = slow_car_and_wreck();
+    const intent::Beliefs beliefs = car_may_brake();
     scene.time = to_seconds(clock_.now());
-    scene.ego_mass = car().mass;
-    scene.road.left_edge = 5.25;
-    scene.road.right_edge = -5.25;
-    scene.actors.push_back(test::car(1, {62.0, 0.0}, {6.0, 0.0}));
-    scene.actors.push_back(test::car(2, {160.0, 3.5}));
-    intent::Beliefs beliefs;
-    beliefs.push_back({});
-    beliefs.push_back({});
-    beliefs[0].at.fill({0.6, 0.0, 0.0, 0.4});
-    beliefs[1].at.fill({1.0, 0.0, 0.0, 0.0});
     thinking.think(scene, beliefs, clock_.now(), {}, [&] {
       Scene now = scene;
       now.time = to_seconds(clock_.now());

@@ -194,12 +194,7 @@ Result<std::vector<match::CaseId>> Store::add_in_turn(std::span<const Case> case
     if (how == Adding::only_where_empty && !is_empty.value()) {
       return std::nullopt;
     }
-    auto given = insert_all(cases, is_empty.value());
-    if (!given.has_value()) {
-      return given.error();
-    }
-    ids = std::move(given).value();
-    return std::nullopt;
+    return insert_all(cases, is_empty.value(), ids);
   });
   if (error) {
     return *std::move(error);
@@ -207,10 +202,8 @@ Result<std::vector<match::CaseId>> Store::add_in_turn(std::span<const Case> case
   return ids;
 }
 
-Result<std::vector<match::CaseId>> Store::insert_all(std::span<const Case> cases,
-                                                     bool with_own_ids) {
-  std::vector<match::CaseId> ids;
-  ids.reserve(cases.size());
+std::optional<Error> Store::insert_all(std::span<const Case> cases, bool with_own_ids,
+                                       std::vector<match::CaseId>& ids) {
   for (const Case& one : cases) {
     const auto id =
         state_->table->insert(cells_of(one), with_own_ids ? std::optional(one.id) : std::nullopt);
@@ -219,7 +212,7 @@ Result<std::vector<match::CaseId>> Store::insert_all(std::span<const Case> cases
     }
     ids.push_back(id.value());
   }
-  return ids;
+  return std::nullopt;
 }
 
 Result<std::vector<match::CaseId>> Store::add_new(std::span<const Case> cases,
@@ -227,6 +220,7 @@ Result<std::vector<match::CaseId>> Store::add_new(std::span<const Case> cases,
   std::for_each(cases.begin(), cases.end(), check);
   std::vector<match::CaseId> ids;
   auto error = state_->table->in_one_transaction([&]() -> std::optional<Error> {
+    ids.clear();
     std::set<std::string> keys;
     if (auto unread = state_->each_after(0, [&](const Case& one) { keys.insert(key_of(one)); })) {
       return unread;
@@ -235,12 +229,7 @@ Result<std::vector<match::CaseId>> Store::add_new(std::span<const Case> cases,
     std::vector<Case> fresh;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(fresh),
                  [&](const Case& one) { return keys.insert(key_of(one)).second; });
-    auto given = insert_all(fresh, is_empty && are_ids(fresh));
-    if (!given.has_value()) {
-      return given.error();
-    }
-    ids = std::move(given).value();
-    return std::nullopt;
+    return insert_all(fresh, is_empty && are_ids(fresh), ids);
   });
   if (error) {
     return *std::move(error);

@@ -164,9 +164,9 @@ class Store {
   enum class Adding : std::uint8_t { new_ids, own_ids_where_empty, only_where_empty };
   [[nodiscard]] Result<std::vector<match::CaseId>> add_in_turn(std::span<const Case> cases,
                                                                Adding how);
-  /// In a transaction; as add_all().
-  [[nodiscard]] Result<std::vector<match::CaseId>> insert_all(std::span<const Case> cases,
-                                                              bool with_own_ids);
+  /// In a transaction; adds the ids given to them.
+  [[nodiscard]] std::optional<Error> insert_all(std::span<const Case> cases, bool with_own_ids,
+                                                std::vector<match::CaseId>& ids);
   /// In a transaction; as learn().
   [[nodiscard]] Result<LearningResult> learn_now(const Case& one);
 
