@@ -143,6 +143,34 @@ class HeldWay {
   bool has_steps_ = false;  ///< remembered is also what answers the steps of a struck ego
 };
 
+/// What comes of a way where all move so.
+struct Told {
+  double harm = 0.0;
+  double contact = 0.0;  ///< probability
+};
+
+/// Where whom the ego meets first may not be there, all that is told after it counts as likely as
+/// it is (forecast::expected_harm); as likely as it is not, the ego drives on to what stands behind
+/// it.
+/// @param doubts  how many that may not be there are driven through, one behind the other
+Told told_with_doubts(HeldWay& held, const Scene& scene, const std::vector<Mover>& movers,
+                      int doubts) {
+  constexpr double sure = 0.95;  // what stands behind is worth less than a twentieth then
+  const collision::Outcome outcome = held.against(movers);
+  const Told told{.harm = outcome.harm, .contact = outcome.contact ? 1.0 : 0.0};
+  const auto first = outcome.contact ? outcome.contact->actor : std::nullopt;
+  if (!first || doubts == 0 || scene.actors[*first].existence >= sure) {
+    return told;
+  }
+  static const Track elsewhere{.start = 0.0, .step = 1.0, .X_WA = {{{1e7, 1e7}, 0.0}}};
+  std::vector<Mover> without = movers;
+  without[*first] = Mover(scene.actors[*first].footprint, elsewhere);
+  const Told behind = told_with_doubts(held, scene, without, doubts - 1);
+  const double existence = scene.actors[*first].existence;
+  return {.harm = told.harm + (1.0 - existence) * behind.harm,
+          .contact = existence + (1.0 - existence) * behind.contact};
+}
+
 /// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
 std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene,
                                               std::span<const manoeuvre::Plan> plans,
@@ -310,13 +338,13 @@ ExpectedHarm PreparedMotions::harm(const EgoMotion& way) const {
   const double sum = weight_of(motions_);
   const double sum_of_half = weight_of(motions_.first(half));
   for (std::size_t k = 0; k < motions_.size(); ++k) {
-    const collision::Outcome outcome = held.against(movers_[k]);
-    const double contact = outcome.contact ? 1.0 : 0.0;
-    expected.harm += motions_[k].probability / sum * outcome.harm;
-    expected.contact += motions_[k].probability / sum * contact;
+    constexpr int doubts = 2;
+    const Told told = told_with_doubts(held, scene_, movers_[k], doubts);
+    expected.harm += motions_[k].probability / sum * told.harm;
+    expected.contact += motions_[k].probability / sum * told.contact;
     if (k < half) {
-      expected.harm_by_half += motions_[k].probability / sum_of_half * outcome.harm;
-      expected.contact_by_half += motions_[k].probability / sum_of_half * contact;
+      expected.harm_by_half += motions_[k].probability / sum_of_half * told.harm;
+      expected.contact_by_half += motions_[k].probability / sum_of_half * told.contact;
     }
   }
   return expected;

@@ -143,6 +143,41 @@ TEST(ExpectedHarm, WithoutADelayWhatBeginsLaterBeginsNow) {
   }
 }
 
+// Something that is there once in twenty times stands before a car that is there: where it is not,
+// the car is hit all the same. Two such, one behind the other, likewise.
+TEST(ExpectedHarm, WhoMayNotBeThereHidesNobodyBehindIt) {
+  const std::array nothing{manoeuvre::doing_nothing};
+  const auto told = [&](const Scene& scene) {
+    const JointMotion stands = all_going_on(scene);
+    return PreparedMotions(scene, {&stands, 1}, rolling()).harms(nothing)[0];
+  };
+  const Scene alone = behind_a_car(30.0, 0.0);
+  const auto with = [&](std::initializer_list<double> ghosts) {
+    Scene scene = alone;
+    double before = 6.0;
+    for (const double existence : ghosts) {
+      world::Actor ghost = alone.actors[0];
+      ghost.id = static_cast<std::uint8_t>(scene.actors.size() + 1);
+      ghost.X_WA.p.x -= before;
+      ghost.existence = existence;
+      scene.actors.push_back(ghost);
+      before += 6.0;
+    }
+    return scene;
+  };
+  const double behind = told(alone).harm;
+  const double sure = told(with({1.0})).harm;
+  const double both_sure = told(with({1.0, 1.0})).harm;
+  ASSERT_GT(behind, 0.0);
+  EXPECT_NEAR(told(with({0.05})).harm, 0.05 * sure + 0.95 * behind, 1e-9);
+  EXPECT_NEAR(told(with({0.05})).contact, 1.0, 1e-12);
+  Scene all_doubted = with({0.05});
+  all_doubted.actors[0].existence = 0.5;
+  EXPECT_NEAR(told(all_doubted).contact, 0.05 + 0.95 * 0.5, 1e-12);
+  const double second_first = told(with({1.0})).harm;
+  EXPECT_NEAR(told(with({1.0, 0.1})).harm, 0.1 * both_sure + 0.9 * second_first, 1e-9);
+}
+
 TEST(ExpectedHarm, AnEmptySceneHasOneMotionAndNobodyIsHarmed) {
   Scene scene = behind_a_car(14.0, 0.0);
   scene.actors.clear();
