@@ -13,7 +13,7 @@ car=${1:-compact_rwd_ev}
   exit 3
 }
 if [ -n "${SACA_DANGER_QUICK:-}" ]; then
-  work=build/danger_quick/$car output=$work/shipped.safetensors
+  work=build/danger_quick/$car output=$work/output/$car.safetensors
   transitions=40000 outcomes=8000 first_steps=60 steps=60 pair_steps=50 batch=256 situations=400 checked=40
   parts=(--part-drives 50 --no-tables)
 else
@@ -42,6 +42,7 @@ train "$work/drives" "$work/q1.safetensors" --steps "$first_steps" --pair-steps 
 evaluate "$work/q1.safetensors" "$work/v1.safetensors"
 train "$work/drives" "$work/q2.safetensors" --q-of "$work/v1.safetensors" --steps "$first_steps"
 evaluate "$work/q2.safetensors" "$work/v2.safetensors"
-[ -e "$output" ] || "$saca" danger margins "$work/v2.safetensors" --output "$output" --situations "$situations"
+[ -e "$work/shipped.safetensors" ] || "$saca" danger margins "$work/v2.safetensors" --output "$work/shipped.safetensors" --situations "$situations"
+cp "$work/shipped.safetensors" "$output"
 cp "$work/v2.safetensors.curve.csv" "$output.curve.csv"
 "$saca" danger check "$output" --situations "$checked"

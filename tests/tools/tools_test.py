@@ -3,8 +3,11 @@ import gzip
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
+
+import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -43,6 +46,43 @@ def test_cases_are_shipped_rounded_and_without_shipped_scenarios(tmp_path):
         assert [json.loads(line) for line in text] == [{"schema": "saca.cases/1", "cases": 1}, {"source": "100car_1", "harm": 0.12346, "id": 7}]
     refused = subprocess.run([ROOT / "tools" / "shippable_cases.py", tmp_path / "none", out], capture_output=True, text=True, check=False)
     assert refused.returncode == 1 and "none: want a file of cases" in refused.stderr
+
+
+def script(path, text):
+    """A shell script that stands for a program."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("#!/bin/bash\nset -eu\n" + text)
+    path.chmod(0o755)
+
+
+def copied(folder, *names):
+    """A folder with these files of the repository, as a checkout has them."""
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, folder / name)
+    return folder
+
+
+OUTPUT = 'while [ "$1" != --output ] && [ "$1" != -o ]; do shift; done; output=$2\n'  # of a program's arguments
+
+
+@pytest.mark.parametrize("quick", ["", "1"])
+def test_weights_of_danger_that_were_trained_take_the_place_of_those_before(tmp_path, quick):
+    clone = copied(tmp_path, "tools/danger.sh", "data/vehicles/compact_rwd_ev.toml")
+    script(clone / "tools/setup.sh", "")
+    script(clone / "bin/cmake", "")
+    script(clone / "build/release/saca-train-danger", OUTPUT + 'echo trained > "$output"; echo curve > "$output.curve.csv"\n')
+    script(clone / "build/release/saca", 'echo "$@" >> calls\n[ "$2" = margins ] || exit 0\nweights=$3\n' + OUTPUT + 'cp "$weights" "$output"\n')
+    shipped = clone / "models/danger/compact_rwd_ev.safetensors"
+    shipped.parent.mkdir(parents=True)
+    shipped.write_text("old\n")
+    made = clone / "build/danger_quick/compact_rwd_ev/output/compact_rwd_ev.safetensors" if quick else shipped
+    for _ in range(2):  # what is done is not done again
+        subprocess.run([clone / "tools/danger.sh"], check=True, env=os.environ | {"PATH": f"{clone}/bin:{os.environ['PATH']}", "SACA_DANGER_QUICK": quick})
+    assert made.read_text() == "trained\n" and made.with_name(made.name + ".curve.csv").read_text() == "curve\n"
+    calls = (clone / "calls").read_text()
+    assert calls.count("danger margins") == 1 and calls.count(f"danger check {made.relative_to(clone)} ") == 2
+    assert (shipped.read_text() == "old\n") == bool(quick)
 
 
 def test_every_case_of_a_fleet_belongs_to_one_vehicle_and_twins_to_the_same(tmp_path):
