@@ -312,7 +312,8 @@ def model_section(runs):
              ("memory of the model's process", number(figures, "reason.child_resident_mib", 0) + " MiB", "")]
     ways = [[f"{tokens} tokens of reasoning", *(number(process, f"{where}/{tokens}/real_time.real_time_us", 0, 1e-3)
                                                 for where in ("in_this_process", "in_a_child_process"))] for tokens in (0, 80)]
-    return [f"{figures['meta.model']}, not fine-tuned. `saca model score` measures how well it chooses, in closed loop; docs/model-protocol.md says "
+    tuned = "" if figures["meta.model"].startswith("saca-") else "not "  # as `make model` calls what it made of the adapter
+    return [f"{figures['meta.model']}, {tuned}fine-tuned. `saca model score` measures how well it chooses, in closed loop; docs/model-protocol.md says "
             "how it is asked.", "",
             table(["figure", "value", "aim"], lines), "",
             "What a process of its own costs:", "",

@@ -54,6 +54,13 @@ def test_a_run_that_is_missing_is_named():
     assert "## Physics\n\nNot measured yet: `tools/bench.sh physics` does that.\n" in page and "## Choice\n\nDeterministic" in page
 
 
+def test_weights_that_were_taught_are_not_called_untaught():
+    runs = committed()
+    assert "BF16), not fine-tuned. `saca model score`" in results_page.page_of(runs)
+    runs["model_bench"]["meta.model"] = "saca-SmolLM2-135M.BF16.gguf eabe6055 (llama 256M BF16)"
+    assert "BF16), fine-tuned. `saca model score`" in results_page.page_of(runs)
+
+
 def test_nested_figures_are_flat():
     assert figures.flat({"a": [{"b": 1}, 2], "c": {"d": None}}) == {"a.0.b": 1, "a.1": 2, "c.d": None}
 
