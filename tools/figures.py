@@ -31,6 +31,31 @@ class Figures(dict):
         sys.exit(f"{self.where}: want the figure {key!r}, got none")
 
 
+def read_json(path):
+    """What a file has as JSON. One that cannot be read ends the script."""
+    try:
+        return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    except OSError as problem:
+        sys.exit(f"{path}: want a file of figures, got {problem.strerror}")
+    except ValueError as problem:
+        sys.exit(f"{path}: want JSON, got {problem}")
+
+
+def read_figures(path, key):
+    """Figures by name. Without the one named `key` the script ends."""
+    figures = read_json(path)
+    if not isinstance(figures, dict) or key not in figures:
+        sys.exit(f'{path}: want figures with "{key}", got none')
+    return figures
+
+
+def write_whole(path, data):
+    """Writes bytes as a file, whole or not at all."""
+    unfinished = pathlib.Path(f"{path}.part")
+    unfinished.write_bytes(data)
+    unfinished.rename(path)
+
+
 def flat(document, head=""):
     """Nested objects and lists as one object: {"a": [{"b": 1}]} becomes {"a.0.b": 1}."""
     figures = {}
@@ -70,9 +95,7 @@ def keep(file, command, commit, seconds):
         sys.exit(f"{command}: want JSON, got {text[:60]!r} ({problem})")
     meta = {"meta.name": pathlib.Path(file).stem, "meta.command": command, "meta.commit": commit, "meta.seconds": int(seconds),
             "meta.date": datetime.date.today().isoformat(), "meta.processor": processor(), "meta.cores": os.cpu_count()}
-    whole = pathlib.Path(file + ".part")
-    whole.write_text(json.dumps(by_name(document) | meta, indent=0, sort_keys=True) + "\n")
-    whole.rename(file)
+    write_whole(file, (json.dumps(by_name(document) | meta, indent=0, sort_keys=True) + "\n").encode())
 
 
 def is_there(file, command, commit):

@@ -7,11 +7,10 @@ that the page shows are kept. Without FILEs the page is made of what is there.
 """
 
 import json
-import pathlib
 import re
 import sys
 
-from figures import ROOT, Figures, flat, interval, table
+from figures import ROOT, Figures, flat, interval, read_figures, read_json, table, write_whole
 
 KEPT = ROOT / "docs" / "results.json"
 PAGE = ROOT / "docs" / "results.md"
@@ -492,12 +491,12 @@ def kept_of(runs):
 
 
 def main(files):
-    runs = runs_of(json.loads(KEPT.read_text()) if KEPT.exists() else [], KEPT.relative_to(ROOT))
+    runs = runs_of(read_json(KEPT) if KEPT.exists() else [], f"docs/{KEPT.name}")
     for file in files:
-        runs |= runs_of([flat(json.loads(pathlib.Path(file).read_text()))], file)
+        runs |= runs_of([flat(read_figures(file, "meta.name"))], file)
     page = page_of(runs)
-    KEPT.write_text(json.dumps(kept_of(runs), indent=0, sort_keys=True) + "\n")
-    PAGE.write_text(page)
+    write_whole(KEPT, (json.dumps(kept_of(runs), indent=0, sort_keys=True) + "\n").encode())
+    write_whole(PAGE, page.encode())
 
 
 if __name__ == "__main__":

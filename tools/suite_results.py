@@ -18,7 +18,7 @@ import re
 import subprocess
 import sys
 
-from figures import ROOT, Figures, interval, percent, processor, table
+from figures import ROOT, Figures, interval, percent, processor, read_figures, read_json, table, write_whole
 
 KEPT = ROOT / "docs" / "suites.json"
 PAGE = ROOT / "docs" / "suites.md"
@@ -48,14 +48,16 @@ def trimmed(figures):
 
 
 def merged(commit, files):
+    """What is kept of these files, each made by a program of that commit."""
     runs = []
-    commit = subprocess.run(["git", "rev-parse", "--short", commit], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+    known = subprocess.run(["git", "rev-parse", "--short", "--verify", commit + "^{commit}"], cwd=ROOT, capture_output=True, text=True)
+    if known.returncode != 0:
+        sys.exit(f"suite_results: want a commit of this repository, got {commit}")
+    commit = known.stdout.strip()
     for file in files:
-        figures = json.loads(pathlib.Path(file).read_text())
-        if "meta.command" not in figures:
-            sys.exit(f'{file}: want figures with "meta.command", got none')
+        figures = read_figures(file, "meta.command")
         built_from = figures.get("meta.built_from", "")
-        if built_from and commit[:7] not in built_from:
+        if built_from and (commit[:7] not in built_from or "-dirty" in built_from):
             sys.exit(f'{file}: want figures of a program of commit {commit}, got those of "{built_from}"')
         figures["meta.processor"] = processor()
         figures["meta.date"] = datetime.date.fromtimestamp(pathlib.Path(file).stat().st_mtime).isoformat()
@@ -321,16 +323,23 @@ def with_added(kept, added):
 
 
 def main():
-    if len(sys.argv) == 2:  # a word by itself is no run
-        wants_help = sys.argv[1] in ("--help", "-h")
+    words = sys.argv[1:]
+    adds = words[:1] == ["add"]
+    groups = groups_of(words[1:] if adds else words) if words else []
+    if any(len(group) < 2 for group in groups):  # a commit by itself is no run
+        wants_help = words in (["--help"], ["-h"])
         print(__doc__.split("\n\n")[1], file=sys.stdout if wants_help else sys.stderr)
         sys.exit(0 if wants_help else 2)
-    if sys.argv[1:2] == ["add"]:
-        runs = with_added(json.loads(KEPT.read_text()), merged(sys.argv[2], sys.argv[3:]))
-        KEPT.write_text(json.dumps(runs, indent=0, sort_keys=True) + "\n")
-    elif len(sys.argv) > 1:
-        KEPT.write_text(json.dumps([run for commit, *files in groups_of(sys.argv[1:]) for run in merged(commit, files)], indent=0, sort_keys=True) + "\n")
-    PAGE.write_text(page_of(json.loads(KEPT.read_text())))
+    runs = [run for commit, *files in groups for run in merged(commit, files)]
+    if not groups:
+        runs = read_json(KEPT)
+    elif adds:
+        runs = with_added(read_json(KEPT), runs)
+    kept = json.dumps(runs, indent=0, sort_keys=True) + "\n"
+    page = page_of(json.loads(kept))
+    if groups:
+        write_whole(KEPT, kept.encode())
+    write_whole(PAGE, page.encode())
 
 
 if __name__ == "__main__":

@@ -61,6 +61,46 @@ def test_weights_that_were_taught_are_not_called_untaught():
     assert "BF16), fine-tuned. `saca model score`" in results_page.page_of(runs)
 
 
+@pytest.fixture
+def documents(tmp_path, monkeypatch):
+    """Copies, in the places of those that are here."""
+    for name, path in (("KEPT", results_page.KEPT), ("PAGE", results_page.PAGE)):
+        copy = tmp_path / path.name
+        copy.write_bytes(path.read_bytes())
+        monkeypatch.setattr(results_page, name, copy)
+    return [results_page.KEPT, results_page.PAGE]
+
+
+def test_a_page_that_is_made_again_is_the_same(documents):
+    before = [path.read_bytes() for path in documents]
+    results_page.main([])
+    assert [path.read_bytes() for path in documents] == before and sorted(documents[0].parent.iterdir()) == sorted(documents)
+
+
+@pytest.mark.parametrize("text, problem", [(None, "want a file of figures, got No such file"), ("{", "want JSON, got "), ("[1]", 'want figures with "meta.name", got none'),
+                                           ('{"x": 1}', 'want figures with "meta.name", got none'),
+                                           ('{"meta.name": "physics"}', "run `physics`: want ")])
+def test_what_is_no_run_is_refused_and_changes_nothing(documents, tmp_path, text, problem):
+    bad = tmp_path / "bad.json"
+    if text is not None:
+        bad.write_text(text)
+    before = [path.read_bytes() for path in documents]
+    with pytest.raises(SystemExit, match=f"bad.json.*{re.escape(problem)}"):
+        results_page.main([bad])
+    assert [path.read_bytes() for path in documents] == before
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path):
+    (tmp_path / "file").write_text("before")
+    (tmp_path / "file.part").mkdir()  # nothing can be written there
+    with pytest.raises(OSError):
+        figures.write_whole(tmp_path / "file", b"after")
+    assert (tmp_path / "file").read_text() == "before"
+    (tmp_path / "file.part").rmdir()
+    figures.write_whole(tmp_path / "file", b"after")
+    assert (tmp_path / "file").read_text() == "after" and len(list(tmp_path.iterdir())) == 1
+
+
 def test_nested_figures_are_flat():
     assert figures.flat({"a": [{"b": 1}, 2], "c": {"d": None}}) == {"a.0.b": 1, "a.1": 2, "c.d": None}
 

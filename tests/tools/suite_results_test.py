@@ -1,6 +1,7 @@
 """docs/suites.md says what docs/suites.json holds."""
 import json
 import pathlib
+import subprocess
 import sys
 
 import pytest
@@ -37,6 +38,88 @@ def test_a_run_that_is_added_takes_the_place_of_the_same_command():
     kept = [{"meta.command": "a", "x": 1}, {"meta.command": "b", "x": 2}]
     assert suite_results.with_added(kept, [{"meta.command": "a", "x": 3}, {"meta.command": "c", "x": 4}]) == [
         {"meta.command": "a", "x": 3}, {"meta.command": "b", "x": 2}, {"meta.command": "c", "x": 4}]
+
+
+@pytest.fixture
+def repository(tmp_path, monkeypatch):
+    """A repository of one commit, with the documents as they are here: the script keeps its figures there."""
+    git = ["git", "-c", "user.name=x", "-c", "user.email=x@x", "-C", tmp_path]
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    subprocess.run([*git, "commit", "-q", "--allow-empty", "-m", "x"], check=True)
+    for name, path in (("KEPT", suite_results.KEPT), ("PAGE", suite_results.PAGE)):
+        copy = tmp_path / path.name
+        copy.write_bytes(path.read_bytes())
+        monkeypatch.setattr(suite_results, name, copy)
+    monkeypatch.setattr(suite_results, "ROOT", tmp_path)
+    return tmp_path
+
+
+def documents():
+    return [suite_results.KEPT.read_bytes(), suite_results.PAGE.read_bytes()]
+
+
+def run_of(monkeypatch, *words):
+    monkeypatch.setattr(sys, "argv", ["suite_results.py", *map(str, words)])
+    suite_results.main()
+
+
+def figures_file(folder, **figures):
+    """As `saca memory calibrate --json` prints them."""
+    path = folder / "run.json"
+    path.write_text(json.dumps({"meta.command": "saca x", "memory.transfer.cases": 7} | figures))
+    return path
+
+
+def test_runs_of_the_named_commit_are_taken(repository):
+    head = subprocess.run(["git", "-C", repository, "rev-parse", "HEAD"], check=True, capture_output=True, text=True).stdout.strip()
+    built_from = f"0.1.0 (commit {head[:12]})"
+    (run,) = suite_results.merged("HEAD", [figures_file(repository, **{"meta.built_from": built_from})])
+    assert head.startswith(run["meta.commit"]) and run["meta.built_from"] == built_from and run["memory.transfer.cases"] == 7
+    assert len(suite_results.merged(head, [figures_file(repository)])) == 1  # of before programs told what they were built from
+    for other in ("0.1.0 (commit 0123456789ab)", f"0.1.0 (commit {head[:12]}-dirty)"):
+        with pytest.raises(SystemExit, match="run.json: want figures of a program of commit .*, got those of .0.1.0 .commit"):
+            suite_results.merged("HEAD", [figures_file(repository, **{"meta.built_from": other})])
+
+
+def test_what_is_added_is_kept_and_told(repository, monkeypatch):
+    before = documents()
+    run_of(monkeypatch)
+    assert documents() == before
+    run_of(monkeypatch, "add", "HEAD", figures_file(repository))
+    kept, page = documents()
+    assert len(json.loads(kept)) == len(json.loads(before[0])) + 1 and page.decode() == suite_results.page_of(json.loads(kept))
+    run_of(monkeypatch, "HEAD", figures_file(repository))
+    assert [run["meta.command"] for run in json.loads(documents()[0])] == ["saca x"]
+    assert not list(repository.glob("*.part"))
+
+
+def test_figures_of_which_no_page_can_be_made_change_nothing(repository, monkeypatch):
+    before = documents()
+    lacking = figures_file(repository, **{"suite.x.aeb.harm": 0.5})
+    for words in (("HEAD", lacking), ("add", "HEAD", lacking)):
+        with pytest.raises(SystemExit, match="want the figure 'suite.x.n', got none"):
+            run_of(monkeypatch, *words)
+        assert documents() == before
+
+
+@pytest.mark.parametrize("text, problem", [(None, "want a file of figures, got No such file"), ("{", "want JSON, got "), ("[1]", 'want figures with "meta.command", got none'),
+                                           ("{}", 'want figures with "meta.command", got none')])
+def test_what_is_no_run_is_refused_in_one_line(repository, monkeypatch, text, problem):
+    if text is not None:
+        (repository / "bad.json").write_text(text)
+    before = documents()
+    with pytest.raises(SystemExit) as refused:
+        run_of(monkeypatch, "add", "HEAD", repository / "bad.json")
+    assert str(refused.value).startswith(f"{repository}/bad.json: {problem}") and "\n" not in str(refused.value) and documents() == before
+
+
+def test_words_that_name_no_run_are_refused(repository, monkeypatch, capsys):
+    with pytest.raises(SystemExit, match="want a commit of this repository, got none.json"):
+        run_of(monkeypatch, "none.json", figures_file(repository))
+    for words in (("HEAD",), ("add", "HEAD"), ("HEAD", figures_file(repository), "--"), ("HEAD", "--", "HEAD")):
+        with pytest.raises(SystemExit) as refused:
+            run_of(monkeypatch, *words)
+        assert refused.value.code == 2 and capsys.readouterr().err.startswith("usage: ")
 
 
 def test_verdicts_stand_beside_what_happened():
