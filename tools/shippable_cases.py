@@ -10,8 +10,9 @@ import gzip
 import json
 import pathlib
 import sys
+import zlib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from figures import ROOT, write_whole
 
 
 def rounded(value):
@@ -29,10 +30,17 @@ def read_cases(path):
             header, *cases = [json.loads(line) for line in lines]
     except OSError as problem:
         sys.exit(f"{path}: want a file of cases, got {problem.strerror or problem}")
+    except (EOFError, zlib.error) as problem:
+        sys.exit(f"{path}: want a whole compressed file, got {problem}")
     except ValueError as problem:
         sys.exit(f"{path}: want cases as JSON Lines, got {problem}")
-    if header.get("schema") != "saca.cases/1":
-        sys.exit(f"{path}: want cases, schema saca.cases/1, got {header.get('schema')}")
+    if not isinstance(header, dict) or header.get("schema") != "saca.cases/1" or "cases" not in header:
+        sys.exit(f"{path}:1: want a header, schema saca.cases/1, that says how many cases follow")
+    if header["cases"] != len(cases):
+        sys.exit(f"{path}: want {header['cases']} cases, as the header says, got {len(cases)}: it is cut or was lengthened")
+    for number, case in enumerate(cases, start=2):
+        if not isinstance(case, dict) or "source" not in case:
+            sys.exit(f'{path}:{number}: want a case with its "source", got none')
     return header, cases
 
 
@@ -50,7 +58,7 @@ def main():
     shipped = {path.stem for path in (ROOT / "scenarios").glob("100car_*.toml")}
     text = "".join(line + "\n" for line in shippable(*read_cases(source), shipped))
     data = text.encode("utf-8")
-    target.write_bytes(gzip.compress(data, compresslevel=9, mtime=0) if target.suffix == ".gz" else data)
+    write_whole(target, gzip.compress(data, compresslevel=9, mtime=0) if target.suffix == ".gz" else data)
 
 
 if __name__ == "__main__":

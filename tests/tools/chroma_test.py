@@ -64,10 +64,14 @@ def test_percentiles_are_nearest_ranks():
 
 
 def test_bad_input_is_told_in_one_line(tmp_path):
-    for text in ("", "{}\n", "not json\n", '{"schema": "saca.cases/1", "cases": 0}\n'):
+    header = '{"schema": "saca.cases/1", "cases": 2}\n'
+    for text in ("", "{}\n", "[]\n", "not json\n", '{"schema": "saca.cases/1", "cases": 0}\n', header + '{"source": "x", "scene": {}}\n', header + "{}\n{}\n"):
         (tmp_path / "bad.jsonl").write_text(text)
         with pytest.raises(make.Problem, match="bad.jsonl"):
             make.read_cases(tmp_path / "bad.jsonl")
+    (tmp_path / "bad.jsonl.gz").write_bytes(gzip.compress(header.encode())[:-10])
+    with pytest.raises(make.Problem, match="bad.jsonl.gz"):
+        make.read_cases(tmp_path / "bad.jsonl.gz")
     run = subprocess.run([sys.executable, TOOL / "make.py", tmp_path / "none.jsonl"], capture_output=True, text=True)
     assert run.returncode == 3 and run.stderr.startswith("chroma: error: ") and run.stderr.count("\n") == 1
 

@@ -48,6 +48,28 @@ def test_cases_are_shipped_rounded_and_without_shipped_scenarios(tmp_path):
     assert refused.returncode == 1 and "none: want a file of cases" in refused.stderr
 
 
+CASE_LINES = [json.dumps(line) + "\n" for line in ({"schema": "saca.cases/1", "cases": 2}, {"source": "100car_1", "harm": 0.5}, {"source": "100car_2", "harm": 0.25})]
+BAD_CASES = [  # what is in the file, and what is said of it
+    ("cut.jsonl", "".join(CASE_LINES[:2]).encode(), "cut.jsonl: want 2 cases, as the header says, got 1: it is cut"),
+    ("cut.jsonl.gz", gzip.compress("".join(CASE_LINES).encode())[:-20], "cut.jsonl.gz: want a whole compressed file, got "),
+    ("damaged.jsonl.gz", gzip.compress("".join(CASE_LINES).encode())[:10] + 40 * b"\xff", "damaged.jsonl.gz: want a whole compressed file, got "),
+    ("plain.jsonl.gz", "".join(CASE_LINES).encode(), "plain.jsonl.gz: want a file of cases, got "),
+    ("nothing.jsonl", b"", "nothing.jsonl: want cases as JSON Lines, got "),
+    ("list.jsonl", b"[1]\n", "list.jsonl:1: want a header, schema saca.cases/1"),
+    ("other.jsonl", b'{"schema": "saca.other/1"}\n', "other.jsonl:1: want a header, schema saca.cases/1"),
+    ("no_count.jsonl", b'{"schema": "saca.cases/1"}\n', "no_count.jsonl:1: want a header, schema saca.cases/1"),
+    ("no_source.jsonl", (CASE_LINES[0] + CASE_LINES[1] + "{}\n").encode(), 'no_source.jsonl:3: want a case with its "source", got none')]
+
+
+@pytest.mark.parametrize("name, data, said", BAD_CASES, ids=[name for name, _, _ in BAD_CASES])
+def test_cases_that_are_not_whole_are_not_shipped(tmp_path, name, data, said):
+    (tmp_path / name).write_bytes(data)
+    (tmp_path / "out.jsonl").write_text("before")
+    refused = tool("shippable_cases.py", tmp_path / name, tmp_path / "out.jsonl")
+    assert refused.returncode == 1 and said in refused.stderr and refused.stderr.count("\n") == 1
+    assert (tmp_path / "out.jsonl").read_text() == "before"
+
+
 def script(path, text):
     """A shell script that stands for a program."""
     path.parent.mkdir(parents=True, exist_ok=True)

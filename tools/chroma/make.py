@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SACA_PROGRAM", str(ROOT / "build/release/saca"))
@@ -33,10 +34,15 @@ def read_cases(path):
     try:
         with opened(path, "rt", encoding="utf-8") as file:
             header, *cases = [json.loads(line) for line in file]
-    except (OSError, ValueError) as problem:
+    except (OSError, ValueError, EOFError, zlib.error) as problem:
         raise Problem(f"{path}: want cases as JSON Lines, got {problem}") from problem
-    if header.get("schema") != "saca.cases/1" or not cases:
+    if not isinstance(header, dict) or header.get("schema") != "saca.cases/1" or not cases:
         raise Problem(f"{path}: want schema saca.cases/1 and at least one case")
+    if header.get("cases") != len(cases):
+        raise Problem(f"{path}: want {header.get('cases')} cases, as the header says, got {len(cases)}: it is cut or was lengthened")
+    for number, case in enumerate(cases, start=2):
+        if not isinstance(case, dict) or not {"source", "scene"} <= case.keys():
+            raise Problem(f'{path}:{number}: want a case with its "source" and "scene", got none')
     return cases
 
 
