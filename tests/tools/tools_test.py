@@ -107,6 +107,29 @@ def test_weights_of_danger_that_were_trained_take_the_place_of_those_before(tmp_
     assert (shipped.read_text() == "old\n") == bool(quick)
 
 
+def test_a_seed_bank_is_not_made_of_cases_that_lack_some(tmp_path):
+    clone = copied(tmp_path, "tools/seed_bank.sh", "tools/shippable_cases.py", "tools/figures.py")
+    # Writes cases; exits as the file named like its command says. `memory export CASES` writes some, too.
+    script(clone / "build/release/saca", """echo "$1 $2" >> calls
+code=$(cat "$1_$2" 2>/dev/null || echo 0)
+case "$1 $2" in 'memory build' | 'cases build') while [ $# -gt 1 ]; do case $1 in -o | --for-memory) cp one.jsonl "$2";; esac; shift; done ;;
+  'memory export') cp one.jsonl "$3" ;;
+esac
+exit "$code"
+""")
+    (clone / "one.jsonl").write_text('{"schema": "saca.cases/1", "cases": 1}\n' + CASE_LINES[1])
+    work = clone / "build/seed_bank"
+    run = lambda: subprocess.run([clone / "tools/seed_bank.sh", "hundred_car"], capture_output=True, text=True).returncode
+    for command, lacking in (("memory_build", "natural.jsonl"), ("cases_build", "recorded.jsonl")):
+        (clone / command).write_text("5")
+        assert [run(), run()] == [5, 5] and not (work / lacking).exists()
+        (clone / command).unlink()
+    assert not (clone / "data/memory/seed.jsonl.gz").exists()
+    assert [run(), run()] == [0, 0] and (clone / "data/memory/seed.jsonl.gz").exists() and not list(work.glob("*.part"))
+    calls = (clone / "calls").read_text().splitlines()
+    assert calls.count("memory build") == 2 + 2 and calls.count("cases build") == 2 + 1  # those that failed, and each once
+
+
 def test_every_case_of_a_fleet_belongs_to_one_vehicle_and_twins_to_the_same(tmp_path):
     queries = tmp_path / "queries.jsonl"
     subprocess.run([os.environ.get("SACA_PROGRAM", ROOT / "build" / "release" / "saca"), "memory", "build", "crossing", "--count", "8", "--draws", "2", "--split", "calibration", "-o", queries],
