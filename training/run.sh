@@ -3,7 +3,8 @@
 # Python environment of its own (build/training, 5.6 GB).
 # usage: training/run.sh all FARS...         records to cases, to sets, to models/language/; hours on two cores. Can be
 #                                            interrupted: the same command goes on where it was, unless the sets have
-#                                            other contents by then: that is refused. `make model` merges it
+#                                            other contents by then: that is refused. Records that cannot be played
+#                                            are told, and left out. `make model` merges it
 #        training/run.sh tune SETS OUTPUT [--steps N] [...]     the training alone (fine_tune.py --help)
 #        training/run.sh agree REPLIES SYSTEM ADAPTER [...]     whether llama.cpp answers as PyTorch does (agreement.py)
 #        training/run.sh setup               makes the environment only
@@ -37,6 +38,15 @@ tune() {  # SETS OUTPUT [OPTION...]
   shift 2
   "$venv/bin/python" "$here/fine_tune.py" "$sets" "$base" "$output" "$@"
 }
+without_failed() {  # COMMAND...: its exit code 5 says that some records could not be played (docs/formats.md)
+  local code=0
+  "$@" || code=$?
+  [ "$code" -ne 5 ] || {
+    echo "training: $2 $3: some records could not be played: they are left out" >&2
+    code=0
+  }
+  return "$code"
+}
 
 command=$1
 shift
@@ -55,12 +65,12 @@ case $command in
     saca=$root/build/release/saca
     work=$root/runs/training
     mkdir -p "$work"
-    "$saca" cases build "$@" --draws 16 --told-draws 16 -o "$work/cases.jsonl"
+    without_failed "$saca" cases build "$@" --draws 16 --told-draws 16 -o "$work/cases.jsonl"
     rm -f "$work/shipped.sqlite"
     gunzip -c "$root/data/memory/seed.jsonl.gz" >"$work/shipped.jsonl"
     "$saca" memory --memory "$work/shipped.sqlite" import "$work/shipped.jsonl" --keep-trust
-    "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" -o "$work/sets"
-    "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" --cues cues -o "$work/cues"
+    without_failed "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" -o "$work/sets"
+    without_failed "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" --cues cues -o "$work/cues"
     tune "$work/sets" "$work/tuned" --also "$work/cues" --steps 400 --harm-scale 0.01
     cp "$work/tuned/adapter.gguf" "$work/tuned/training.json" "$root/models/language/"
     for output in "$root/models/language/curve.csv" "$root/docs/language_model/curve.svg"; do

@@ -1,10 +1,12 @@
 """Training of the language model: what it learns from, and that it learns."""
+import gzip
 import hashlib
 import json
 import math
 import pathlib
 import random
 import re
+import shutil
 import subprocess
 import sys
 from xml.etree import ElementTree
@@ -335,6 +337,38 @@ def test_bad_input_is_told_in_one_line(tmp_path):
     none = tune(tmp_path, tmp_path / "none.gguf", tmp_path / "out")
     assert none.returncode == 3 and "none.gguf: want the model's weights" in none.stderr and none.stderr.count("\n") == 1
     assert "--steps: want at least 1, got 0" in tune(tmp_path, tmp_path, tmp_path / "out", "--steps", "0").stderr
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """A checkout with programs that note their calls; `saca` exits as the file `code` says."""
+    for name in ("training/run.sh", "training/requirements.txt", "training/curve.py"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    digest = hashlib.sha256((TRAINING / "requirements.txt").read_bytes()).hexdigest()
+    tuned = tmp_path / "runs/training/tuned"
+    for path, text in (("build/release/saca", 'case $2 in build | export) exit "$(cat code)";; esac\n'),
+                       ("build/training/bin/python", f'mkdir -p {tuned}; cd {tuned}; touch adapter.gguf training.json\n'
+                        'printf "step,tokens,loss,calibration_loss,seconds\\n1,1,2,,1\\n2,2,1,,2\\n" > curve.csv\n')):
+        (tmp_path / path).parent.mkdir(parents=True)
+        (tmp_path / path).write_text('#!/bin/sh\necho "$@" >> calls\n' + text)
+        (tmp_path / path).chmod(0o755)
+    (tmp_path / f"build/training/ready-{digest[:16]}").touch()
+    for folder in ("data/memory", "models/language", "docs/language_model"):
+        (tmp_path / folder).mkdir(parents=True)
+    (tmp_path / "data/memory/seed.jsonl.gz").write_bytes(gzip.compress(b""))
+    return tmp_path
+
+
+@pytest.mark.parametrize("code, end", [(0, 0), (5, 0), (3, 3), (130, 130)])
+def test_records_that_could_not_be_played_do_not_block_a_training(clone, code, end):
+    (clone / "code").write_text(str(code))
+    run = subprocess.run([clone / "training/run.sh", "all", "fars"], cwd=clone, capture_output=True, text=True)
+    assert run.returncode == end, run.stderr
+    assert (clone / "models/language/adapter.gguf").exists() == (end == 0)
+    said = run.stderr.splitlines()
+    assert [line for line in said if "could not be played" in line] == (
+        [f"training: cases {word}: some records could not be played: they are left out" for word in ("build", "export", "export")] if code == 5 else [])
 
 
 def test_the_curve_is_drawn(tmp_path):
