@@ -104,6 +104,13 @@ def test_what_is_no_trace_is_refused(text, words, tmp_path):
     assert list(tmp_path.iterdir()) == [file]
 
 
+def test_a_trace_is_not_written_over(trace, monkeypatch):
+    before = trace.read_text()
+    monkeypatch.chdir(trace.parent)
+    assert "want another file than the trace" in make.main(trace, "./trace.jsonl")
+    assert trace.read_text() == before and list(trace.parent.iterdir()) == [trace]
+
+
 READ = """
 import json, sys
 from mcap.reader import make_reader

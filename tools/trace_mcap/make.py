@@ -126,6 +126,8 @@ def write(path, all_messages):
 
 def main(trace, output):
     try:
+        if os.path.exists(output) and os.path.samefile(trace, output):
+            return f"trace_mcap: error: {output}: want another file than the trace"
         write(pathlib.Path(output), messages(*read(pathlib.Path(trace))))
     except (OSError, ValueError) as problem:
         return f"trace_mcap: error: {problem}"
