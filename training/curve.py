@@ -6,6 +6,7 @@ usage: curve.py CURVE... OUTPUT
 """
 import csv
 import math
+import os
 import pathlib
 import sys
 
@@ -92,10 +93,15 @@ def main(arguments):
     if len(arguments) < 2:
         raise SystemExit(__doc__)
     *curves, output = arguments
-    if output.endswith(".csv"):
-        write_joined(output, joined([read_rows(path) for path in curves]))
-    else:
-        pathlib.Path(output).write_text(picture(*read_curve(*curves)), encoding="utf-8")
+    if any(os.path.exists(path) and os.path.exists(output) and os.path.samefile(path, output) for path in curves):
+        raise SystemExit(f"curve: error: {output}: want another file than the curves that are read")
+    try:
+        if output.endswith(".csv"):
+            write_joined(output, joined([read_rows(path) for path in curves]))
+        else:
+            pathlib.Path(output).write_text(picture(*read_curve(*curves)), encoding="utf-8")
+    except OSError as error:
+        raise SystemExit(f"curve: error: {output}: cannot write: {error.strerror}") from None
 
 
 if __name__ == "__main__":

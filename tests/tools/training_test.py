@@ -384,6 +384,21 @@ def test_the_curve_is_drawn(tmp_path):
     assert down[0] < down[1] < down[2] and down[1] < down[3] < down[2]  # less loss is lower, and so is the judged one
 
 
+def test_a_curve_is_not_written_over_and_a_missing_folder_is_told(tmp_path, monkeypatch):
+    table = tmp_path / "curve.csv"
+    table.write_text("step,tokens,loss,calibration_loss,seconds\n1,10,2.0,,1\n2,20,1.0,,2\n")
+    (tmp_path / "other.csv").write_text(table.read_text())
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "link.svg").symlink_to(table)
+    for output in ("./curve.csv", "link.svg"):
+        with pytest.raises(SystemExit, match=f"{re.escape(output)}: want another file than the curves that are read"):
+            curve.main(["other.csv", str(table), output])
+    assert table.read_text() == (tmp_path / "other.csv").read_text()
+    for name in ("none/all.csv", "none/all.svg"):
+        with pytest.raises(SystemExit, match=f"curve: error: {name}: cannot write: No such file or directory"):
+            curve.main([str(table), name])
+
+
 def test_a_training_that_went_on_has_one_curve(tmp_path):
     for name, steps in (("first", 3), ("second", 2)):
         rows = "".join(f"{k},{10 * k},0.5,{0.25 if k == steps else ''},{1.5 * k}\n" for k in range(1, steps + 1))
