@@ -82,10 +82,14 @@ def begin_with(model, place, given):
     try:
         if place.suffix == ".gguf":
             state, alpha = adapter.read_adapter(place, model.config, given.base)
-            if alpha != given.alpha:
-                raise adapter.OtherAdapter(f"want --alpha {alpha:g}, got {given.alpha}")
         else:
-            state = torch.load(place, weights_only=True)["adapter"]
+            before = torch.load(place, weights_only=True)
+            state, settings = before["adapter"], before["settings"]
+            alpha = float(settings["alpha"])
+            if settings.get(settings["base"]) != kept.sha256_of(given.base):
+                raise adapter.OtherAdapter(f"want an adapter of {given.base}, got one of other weights, or one that does not tell of which")
+        if alpha != given.alpha:
+            raise adapter.OtherAdapter(f"want --alpha {alpha:g}, got {given.alpha}")
         own = peft.get_peft_model_state_dict(model)
         if {key: value.shape for key, value in own.items()} != {key: value.shape for key, value in state.items()}:
             raise adapter.OtherAdapter(f"want the layers and the rank ({given.rank}) of this one")

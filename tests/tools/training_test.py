@@ -296,16 +296,25 @@ given = argparse.Namespace(base=folder / "base.gguf", alpha=8, rank=4)
 fine_tune.begin_with(model, folder / "adapter.gguf", given)
 begun = peft.get_peft_model_state_dict(model)
 refused = []
-for change in ({"base": folder / "other.gguf"}, {"alpha": 16}, {"base": folder / "none.gguf"}):
+base = str(given.base)
+torch.save({"adapter": state, "settings": {"alpha": "8", "base": base, base: fine_tune.kept.sha256_of(base)}}, folder / "kept.pt")
+torch.save({"adapter": state, "settings": {"alpha": "8", "base": base}}, folder / "old.pt")
+fine_tune.begin_with(model, folder / "kept.pt", given)
+for name, change in (("adapter.gguf", {"base": folder / "other.gguf"}), ("adapter.gguf", {"alpha": 16}), ("adapter.gguf", {"base": folder / "none.gguf"}),
+                     ("kept.pt", {"base": folder / "other.gguf"}), ("kept.pt", {"alpha": 16}), ("kept.pt", {"base": folder / "none.gguf"}), ("old.pt", {})):
     try:
-        fine_tune.begin_with(model, folder / "adapter.gguf", argparse.Namespace(**{**vars(given), **change}))
+        fine_tune.begin_with(model, folder / name, argparse.Namespace(**{**vars(given), **change}))
     except fine_tune.Problem as problem:
         refused.append(str(problem))
 print(json.dumps({"alpha": alpha, "same": sorted(back) == sorted(state) and all(torch.equal(back[k], state[k]) for k in state),
                   "begun": all(torch.equal(begun[k], state[k]) for k in state), "refused": refused}))
 """, tmp_path)
     assert told["alpha"] == 8 and told["same"] and told["begun"]
-    assert "got one of other weights" in told["refused"][0] and "want --alpha 8, got 16" in told["refused"][1] and "none.gguf" in told["refused"][2]
+    refused = told["refused"]
+    for of_kind in (refused[:3], refused[3:6]):  # the file that it wrote, and what it kept
+        assert "got one of other weights" in of_kind[0] and "want --alpha 8, got 16" in of_kind[1] and "none.gguf" in of_kind[2]
+    assert "old.pt" in refused[6] and "or one that does not tell of which" in refused[6] and len(refused) == 7
+    assert not any("\n" in one for one in refused)
 
 
 @needs_environment
