@@ -245,7 +245,7 @@ class Training:
         told = {"schema": "saca.fine_tuning/1", **self.settings, "sets": self.given.sets.name, "base": self.given.base.name,
                 "also": " ".join(folder.name for folder in self.given.also),
                 "begin_with": self.given.begin_with.parent.name if self.given.begin_with else "",
-                "sha256": {"/".join(pathlib.Path(path).parts[-2:]): digest for path, digest in self.contents.items()},
+                "sha256": kept.by_last_parts(self.contents),
                 "examples": len(self.train), "tokens": self.tokens, "seconds": round(self.seconds),
                 "calibration_loss": next((row[3] for row in reversed(self.curve) if row[3] is not None), None)}
         (self.given.output / "training.json").write_text(json.dumps(told, indent=2) + "\n")

@@ -17,6 +17,15 @@ def contents(folders, files):
     return {str(path): sha256_of(path) for path in paths}
 
 
+def by_last_parts(contents):
+    """The same by the last parts of the paths: by two, or by as many as tell them apart."""
+    count = 2
+    shortened = lambda: {"/".join(pathlib.Path(path).parts[-count:]): digest for path, digest in contents.items()}
+    while len(shortened()) < len(contents):
+        count += 1
+    return shortened()
+
+
 def refuse_other(place, told, own):
     """Raises Problem, naming what differs between what a kept training tells of itself and this one. Each is settings
     and contents, by name; a training of before contents were kept tells none.

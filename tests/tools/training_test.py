@@ -68,6 +68,13 @@ def test_bad_sets_are_refused(tmp_path, documents, message):
         examples.read_set(tmp_path / "none.jsonl")
 
 
+def test_files_are_told_apart_by_the_last_parts_of_their_paths():
+    contents = {"runs/training/sets/train.jsonl": "a", "runs/training/cues/train.jsonl": "b", "base.gguf": "c"}
+    assert kept.by_last_parts(contents) == {"sets/train.jsonl": "a", "cues/train.jsonl": "b", "base.gguf": "c"}
+    alike = {"one/cues/train.jsonl": "a", "two/cues/train.jsonl": "b", "/far/two/base.gguf": "c"}
+    assert kept.by_last_parts(alike) == {"one/cues/train.jsonl": "a", "two/cues/train.jsonl": "b", "far/two/base.gguf": "c"}
+
+
 def kept_of(tmp_path):
     """What a training with one folder of sets tells of itself."""
     return {"steps": "400", **kept.contents([tmp_path / "sets"], [tmp_path / "base.gguf"])}
@@ -338,6 +345,65 @@ except fine_tune.Problem as problem:
 print(json.dumps({"gone_on": gone_on, "refused": refused}))
 """, tmp_path)
     assert told["gone_on"] == 1 and "kept.pt: is of other settings or of files with other contents (train.jsonl);" in told["refused"]
+
+
+# What a program ends with, and what it says.
+ENDS = """
+import contextlib, io
+def end_of(main, *arguments):
+    said = io.StringIO()
+    with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+        try:
+            code = main([str(one) for one in arguments])
+        except SystemExit as end:
+            code = end.code
+    return [code, said.getvalue()]
+"""
+
+
+@needs_environment
+def test_an_interrupted_training_ends_with_the_same_adapter(tmp_path):
+    """Four steps at once, or two, interrupted, and two more."""
+    (tmp_path / "sets").mkdir()
+    (tmp_path / "sets/system.txt").write_text("rules")
+    (tmp_path / "base.gguf").write_bytes(b"weights")
+    made = [dict(EXAMPLE, record=f"fars_{k}", prompt=f"{k} AEB: clear", choice=k, admissible=[k, 7], reply=f"Scenario Analysis\n1. So it is.\nResponse to user: {k}") for k in range(6)]
+    for name, some in (("train", made), ("calibration", made[:2])):
+        write(tmp_path / f"sets/{name}.jsonl", dict(HEADER, examples=len(some)), *some)
+    told = in_environment(TINY + ENDS + """
+import pathlib
+folder = pathlib.Path(sys.argv[1])
+class Letters:
+    eos_token_id = 299
+    def __call__(self, text, add_special_tokens):
+        return {"input_ids": letters(text)}
+def load(base):
+    torch.manual_seed(1)
+    return Letters(), transformers.LlamaForCausalLM(transformers.LlamaConfig(vocab_size=300, hidden_size=16, intermediate_size=16, num_hidden_layers=1, num_attention_heads=2,
+                                                                             num_key_value_heads=1, max_position_embeddings=512, initializer_range=0.2)).eval()
+fine_tune.load = load
+begun = fine_tune.Training.step
+def interrupted(training, step):
+    if step == 2:
+        raise KeyboardInterrupt
+    return begun(training, step)
+run = lambda name: end_of(fine_tune.main, folder / "sets", folder / "base.gguf", folder / name, "--steps", 4, "--batch", 2, "--rank", 2, "--warm-up", 2, "--threads", 1,
+                          "--keep-every", 1, "--twin-share", 1, "--single-share", 1)
+ends = [run("at_once")]
+fine_tune.Training.step = interrupted
+ends.append(run("interrupted"))
+fine_tune.Training.step = begun
+ends.append(run("interrupted"))
+print(json.dumps(ends))
+""", tmp_path)
+    assert [code for code, _ in told] == [0, 130, 0] and "run it again, it goes on" in told[1][1] and "step 3 of 4" in told[2][1] and "step 2 of 4" not in told[2][1]
+    at_once, interrupted = (tmp_path / name for name in ("at_once", "interrupted"))
+    assert (at_once / "adapter.gguf").read_bytes() == (interrupted / "adapter.gguf").read_bytes()
+    columns = lambda folder: [row.split(",")[:4] for row in (folder / "curve.csv").read_text().splitlines()]  # all but the seconds
+    assert columns(at_once) == columns(interrupted) and len(columns(at_once)) == 1 + 4
+    steps = json.loads((interrupted / "training.json").read_text())
+    assert steps["sha256"] == {f"{folder}/{name}": kept.sha256_of(tmp_path / folder / name) for folder, name in (
+        ("sets", "system.txt"), ("sets", "train.jsonl"), ("sets", "calibration.jsonl"))} | {f"{tmp_path.name}/base.gguf": kept.sha256_of(tmp_path / "base.gguf")}
 
 
 @needs_environment
