@@ -11,6 +11,7 @@ another answer is the likeliest.
 """
 import argparse
 import json
+import math
 import pathlib
 import sys
 
@@ -26,14 +27,29 @@ KINDS = ("first", "last")
 
 
 def read_replies(path):
+    """The replies of a file that have both answers. Raises Problem, naming the line."""
+    lines = examples.lines_behind_header(path, REPLIES_SCHEMA, "replies", "saca cases eval")
+    replies = [read_reply(line, f"{path}:{i}") for i, line in enumerate(lines, start=2)]
+    return [one for one in replies if one["first"] and one["last"]]
+
+
+def read_reply(line, place):
+    """One reply; `place` names the line in errors."""
     try:
-        lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
-        documents = [json.loads(line) for line in lines]
-    except (OSError, ValueError) as error:
-        raise Problem(f"{path}: want lines of JSON: {error}") from None
-    if not documents or documents[0].get("schema") != REPLIES_SCHEMA:
-        raise Problem(f"{path}:1: want a header of {REPLIES_SCHEMA}, as `saca cases eval` writes it")
-    return [one for one in documents[1:] if one["first"] and one["last"]]
+        found = json.loads(line)
+        example, reasoning, _, *answers = (found[key] for key in ("example", "reasoning", "ended", *KINDS))
+        texts = {"prompt": example["prompt"], "reasoning": reasoning}
+    except (ValueError, TypeError) as error:
+        raise Problem(f"{place}: want a reply as JSON: {error}") from None
+    except KeyError as error:
+        raise Problem(f"{place}: want the key {error}") from None
+    for key, text in texts.items():
+        if not isinstance(text, str):
+            raise Problem(f"{place}: want a text as {key}, got {text}")
+    for kind, answer in zip(KINDS, answers):
+        if answer is not None and not examples.are_numbers(answer):
+            raise Problem(f"{place}: want eight numbers or null as {kind}, got {answer}")
+    return found
 
 
 def asked_tokens(reply, kind, tokens_of):
@@ -90,7 +106,13 @@ def main(arguments):
     parser.add_argument("--temperature", type=float, default=1.0, help="of data/language_model.toml, for these weights")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args(arguments)
+    for name in ("count", "rank", "alpha"):
+        if getattr(given, name) < 1:
+            parser.error(f"--{name}: want at least 1, got {getattr(given, name)}")
+    if not 0.0 < given.temperature < math.inf:
+        parser.error(f"--temperature: want a number above 0, got {given.temperature:g}")
     try:
+        rules = examples.read_text(given.system)
         paths = [given.replies, *given.also]
         files = [read_replies(path)[:given.count] for path in paths]
         for path, replies in zip(paths, files):
@@ -103,7 +125,7 @@ def main(arguments):
         given.seed = 1
         model = fine_tune.with_adapter(base, given)
         fine_tune.begin_with(model, given.adapter, given)
-        system = examples.system_tokens(tokens_of, given.system.read_text(encoding="utf-8"))
+        system = examples.system_tokens(tokens_of, rules)
     except (Problem, OSError) as error:
         print(f"agreement: error: {error}", file=sys.stderr)
         return 3

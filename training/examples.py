@@ -39,25 +39,39 @@ class Example:
     known: tuple  # harm over draws by policy; None: not known
 
 
-def read_set(path):
-    """All examples of a file, in its order. Raises Problem, naming the line."""
-    path = pathlib.Path(path)
+def read_text(path):
+    """All of a file. Raises Problem, naming it."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        return pathlib.Path(path).read_text(encoding="utf-8")
     except OSError as error:
         raise Problem(f"{path}: cannot read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise Problem(f"{path}: want UTF-8") from None
+
+
+def lines_behind_header(path, schema, counted, command):
+    """What follows a file's first line, which has the schema and says how many lines follow, as `counted`; `command` writes such files."""
+    lines = read_text(path).splitlines()
     try:
         head = json.loads(lines[0]) if lines else {}
-        told = head.get("examples") if head.get("schema") == SCHEMA else None
+        told = head.get(counted) if head.get("schema") == schema else None
     except (ValueError, AttributeError):
         told = None
     if told is None:
-        raise Problem(f"{path}:1: want a header of {SCHEMA}, as `saca cases export` writes it")
+        raise Problem(f"{path}:1: want a header of {schema}, as `{command}` writes it")
     if told != len(lines) - 1:
-        raise Problem(f"{path}: want {told} examples, got {len(lines) - 1}: it is cut or was lengthened")
-    return [read_set_line(line, f"{path}:{i}") for i, line in enumerate(lines[1:], start=2)]
+        raise Problem(f"{path}: want {told} {counted}, got {len(lines) - 1}: it is cut or was lengthened")
+    return lines[1:]
+
+
+def are_numbers(values):
+    """Is there one for each policy?"""
+    return isinstance(values, list | tuple) and len(values) == ANSWERS and all(isinstance(one, int | float) and math.isfinite(one) for one in values)
+
+
+def read_set(path):
+    """All examples of a file, in its order. Raises Problem, naming the line."""
+    return [read_set_line(line, f"{path}:{i}") for i, line in enumerate(lines_behind_header(path, SCHEMA, "examples", "saca cases export"), start=2)]
 
 
 def read_set_line(line, place):
@@ -70,8 +84,16 @@ def read_set_line(line, place):
         raise Problem(f"{place}: want an example as JSON: {error}") from None
     except KeyError as error:
         raise Problem(f"{place}: want the key {error}") from None
+    for key in ("prompt", "reply"):
+        if not isinstance(found[key], str):
+            raise Problem(f"{place}: want a text as {key}, got {found[key]}")
     if not result.reply.endswith(f"Response to user: {result.choice}") or result.choice not in range(ANSWERS):
         raise Problem(f"{place}: want a reply that ends with its choice, 0 to 7")
+    if not all(isinstance(policy, int) and policy in range(ANSWERS) for policy in result.admissible):
+        raise Problem(f"{place}: want policies, 0 to 7, as admissible, got {found['admissible']}")
+    for key in ("forecast", "known"):
+        if not are_numbers([0.0 if harm is None else harm for harm in found[key]]):
+            raise Problem(f"{place}: want eight numbers or null as {key}, got {found[key]}")
     return result
 
 

@@ -56,6 +56,10 @@ def options(arguments):
     for name in ("steps", "batch", "rank", "alpha", "keep_every", "judge_every"):
         if getattr(given, name) < 1:
             parser.error(f"--{name.replace('_', '-')}: want at least 1, got {getattr(given, name)}")
+    if not 0.0 < given.answer_weight < math.inf:
+        parser.error(f"--answer-weight: want a number above 0, got {given.answer_weight:g}")
+    if given.threads < 0:
+        parser.error(f"--threads: want at least 0, got {given.threads}")
     return given
 
 
@@ -100,7 +104,7 @@ def begin_with(model, place, given):
 
 def rules_of(folders):
     """The system part that all these sets share."""
-    rules = [(folder / "system.txt").read_text(encoding="utf-8") for folder in folders]
+    rules = [examples.read_text(folder / "system.txt") for folder in folders]
     for folder, text in zip(folders, rules):
         if text != rules[0]:
             raise Problem(f"{folder / 'system.txt'}: want the rules of {folders[0]}, got others")

@@ -60,12 +60,27 @@ def test_sets_are_read_back(tmp_path):
     ((HEADER, {key: value for key, value in EXAMPLE.items() if key != "known"}), "train.jsonl:2: want the key 'known'"),
     ((HEADER, dict(EXAMPLE, choice=4)), "train.jsonl:2: want a reply that ends with its choice"),
     ((HEADER, dict(EXAMPLE, choice="x")), "train.jsonl:2: want an example"),
+    ((HEADER, dict(EXAMPLE, reply=5)), "train.jsonl:2: want a text as reply, got 5"),
+    ((HEADER, dict(EXAMPLE, prompt=None)), "train.jsonl:2: want a text as prompt, got None"),
+    ((HEADER, dict(EXAMPLE, admissible=[9])), "train.jsonl:2: want policies, 0 to 7, as admissible, got .9"),
+    ((HEADER, dict(EXAMPLE, admissible=["3"])), "train.jsonl:2: want policies, 0 to 7, as admissible"),
+    ((HEADER, dict(EXAMPLE, known=[0.1, 0.2])), "train.jsonl:2: want eight numbers or null as known, got .0.1, 0.2"),
+    ((HEADER, dict(EXAMPLE, forecast=["x"] * 8)), "train.jsonl:2: want eight numbers or null as forecast"),
 ])
 def test_bad_sets_are_refused(tmp_path, documents, message):
     with pytest.raises(examples.Problem, match=message.replace("(", ".")):
         examples.read_set(write(tmp_path / "train.jsonl", *documents))
     with pytest.raises(examples.Problem, match="none.jsonl: cannot read"):
         examples.read_set(tmp_path / "none.jsonl")
+
+
+def test_what_is_no_text_is_refused(tmp_path):
+    (tmp_path / "system.txt").write_bytes(b"\xff")
+    for read in (examples.read_text, examples.read_set):
+        with pytest.raises(examples.Problem, match="system.txt: want UTF-8"):
+            read(tmp_path / "system.txt")
+    with pytest.raises(examples.Problem, match="none.txt: cannot read: No such file"):
+        examples.read_text(tmp_path / "none.txt")
 
 
 def test_files_are_told_apart_by_the_last_parts_of_their_paths():
@@ -362,6 +377,31 @@ def end_of(main, *arguments):
 
 
 @needs_environment
+def test_bad_input_is_told_in_one_line(tmp_path):
+    tune = lambda *arguments: subprocess.run([PYTHON, TRAINING / "fine_tune.py", *map(str, arguments)], capture_output=True, text=True)
+    none = tune(tmp_path, tmp_path / "none.gguf", tmp_path / "out")
+    assert none.returncode == 3 and "none.gguf: want the model's weights" in none.stderr and none.stderr.count("\n") == 1
+    replies = write(tmp_path / "replies.jsonl", {"schema": "saca.example_replies/2", "replies": 0})
+    (tmp_path / "system.txt").write_bytes(b"\xff")
+    told = in_environment(TINY + ENDS + """
+import agreement, pathlib
+folder = pathlib.Path(sys.argv[1])
+fine_tune.load = lambda base: (lambda text, add_special_tokens: {"input_ids": letters(text)}, transformers.LlamaForCausalLM(config))
+options = [["--steps", "0"], ["--answer-weight", "0"], ["--answer-weight", "nan"], ["--threads", "-1"]]
+compared = [["--count", "0"], ["--rank", "0"], ["--temperature", "0"]]
+files = [folder / "replies.jsonl", folder / "system.txt", folder / "base.gguf", folder / "adapter.gguf"]
+print(json.dumps([*(end_of(fine_tune.main, folder, folder / "base.gguf", folder / "out", *one) for one in [*options, []]),
+                  *(end_of(agreement.main, *files, *one) for one in [*compared, []])]))
+""", tmp_path)
+    for (code, said), (wanted, words) in zip(told, ((2, "--steps: want at least 1, got 0"), (2, "--answer-weight: want a number above 0, got 0"),
+                                                    (2, "--answer-weight: want a number above 0, got nan"), (2, "--threads: want at least 0, got -1"),
+                                                    (3, f"fine_tune: error: {tmp_path}/system.txt: want UTF-8"), (2, "--count: want at least 1, got 0"),
+                                                    (2, "--rank: want at least 1, got 0"), (2, "--temperature: want a number above 0, got 0"),
+                                                    (3, f"agreement: error: {tmp_path}/system.txt: want UTF-8")), strict=True):
+        assert code == wanted and words in said
+
+
+@needs_environment
 def test_an_interrupted_training_ends_with_the_same_adapter(tmp_path):
     """Four steps at once, or two, interrupted, and two more."""
     (tmp_path / "sets").mkdir()
@@ -406,12 +446,44 @@ print(json.dumps(ends))
         ("sets", "system.txt"), ("sets", "train.jsonl"), ("sets", "calibration.jsonl"))} | {f"{tmp_path.name}/base.gguf": kept.sha256_of(tmp_path / "base.gguf")}
 
 
+REPLY = {"schema": "saca.example_reply/2", "example": EXAMPLE, "reasoning": "So it is.", "first": [0.125] * 8, "last": [0.125] * 8, "ended": False}
+
+
 @needs_environment
-def test_bad_input_is_told_in_one_line(tmp_path):
-    tune = lambda *arguments: subprocess.run([PYTHON, TRAINING / "fine_tune.py", *map(str, arguments)], capture_output=True, text=True)
-    none = tune(tmp_path, tmp_path / "none.gguf", tmp_path / "out")
-    assert none.returncode == 3 and "none.gguf: want the model's weights" in none.stderr and none.stderr.count("\n") == 1
-    assert "--steps: want at least 1, got 0" in tune(tmp_path, tmp_path, tmp_path / "out", "--steps", "0").stderr
+def test_agreement_reads_replies(tmp_path):
+    header = {"schema": "saca.example_replies/2", "replies": 1}
+    bad = [((), ":1: want a header of saca.example_replies/2"), (([1], REPLY), ":1: want a header"), (({"schema": "saca.cases/1"}, REPLY), ":1: want a header"),
+           ((dict(header, replies=3), REPLY), ": want 3 replies, got 1: it is cut"), ((header, [1]), ":2: want a reply as JSON"),
+           ((header, {key: value for key, value in REPLY.items() if key != "first"}), ":2: want the key 'first'"),
+           ((header, dict(REPLY, example={})), ":2: want the key 'prompt'"), ((header, dict(REPLY, reasoning=None)), ":2: want a text as reasoning, got None"),
+           ((header, dict(REPLY, last=[0.5, 0.5])), ":2: want eight numbers or null as last, got [0.5, 0.5]")]
+    for k, (documents, _) in enumerate(bad):
+        write(tmp_path / f"{k}.jsonl", *documents)
+    write(tmp_path / "good.jsonl", dict(header, replies=2), REPLY, dict(REPLY, first=None))
+    told = in_environment(TINY + """
+import agreement, pathlib
+folder = pathlib.Path(sys.argv[1])
+refused = []
+for k in range(int(sys.argv[2])):
+    try:
+        agreement.read_replies(folder / f"{k}.jsonl")
+    except fine_tune.Problem as problem:
+        refused.append(str(problem))
+reply = {"example": {"prompt": "a"}, "reasoning": "b", "ended": False}
+asked = [agreement.asked_tokens(one, kind, letters) for one, kind in ((reply, "first"), (reply, "last"), (reply | {"ended": True, "reasoning": "b Response to user:"}, "last"))]
+soft = torch.softmax(torch.tensor([3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], dtype=torch.float64) / 2.5, 0).tolist()
+one_hot = lambda k, p: [p if k == j else (1 - p) / 7 for j in range(8)]
+print(json.dumps({"refused": refused, "good": len(agreement.read_replies(folder / "good.jsonl")),
+                  "asked": [one == letters(text) for one, text in zip(asked, ("a" + examples.PROMPT_TAIL + " Response to user: ", "a" + examples.PROMPT_TAIL + "b Response to user: ",
+                                                                              "a" + examples.PROMPT_TAIL + "b Response to user: "))],
+                  "sharpened": agreement.sharpened(soft, 2.5), "plain": torch.softmax(torch.tensor([3.0, 1.0, 0, 0, 0, 0, 0, 0]), 0).tolist(),
+                  "compared": agreement.compare([(one_hot(1, 0.5), one_hot(1, 0.75)), (one_hot(1, 0.5), one_hot(2, 0.5))])}))
+""", tmp_path, len(bad))
+    for k, (said, (_, words)) in enumerate(zip(told["refused"], bad)):
+        assert said.startswith(f"{tmp_path}/{k}.jsonl{words}") and "\n" not in said
+    assert len(told["refused"]) == len(bad)
+    assert told["good"] == 1 and told["asked"] == [True] * 3
+    assert told["sharpened"] == pytest.approx(told["plain"]) and told["compared"] == {"compared": 2, "same": 1, "largest_shift": pytest.approx(0.5 - 0.5 / 7)}
 
 
 @pytest.fixture
