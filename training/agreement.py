@@ -5,15 +5,17 @@ usage: agreement.py REPLIES SYSTEM BASE ADAPTER [--also REPLIES ...] [--count N]
   SYSTEM   system.txt of the sets
   BASE     GGUF file that the adapter was trained with
   ADAPTER  what training kept (kept.pt) or wrote (adapter.gguf)
-PyTorch is given the same prompts and the same written text: so each answer is compared by itself. Several files (--also:
-of the same prompts, by weights in another format) take little longer than one. Exit code 1: in more than two of a hundred
-another answer is the likeliest.
+PyTorch is given the same prompts and the same written text: so each answer is compared by itself. The temperature that
+replies were written with is undone (--temperature; without it, that of data/language_model.toml for the tuned weights).
+Several files (--also: of the same prompts, by weights in another format) take little longer than one. Exit code 1: in
+more than two of a hundred another answer is the likeliest.
 """
 import argparse
 import json
 import math
 import pathlib
 import sys
+import tomllib
 
 import torch
 import transformers
@@ -24,6 +26,8 @@ from examples import Problem
 
 REPLIES_SCHEMA = "saca.example_replies/2"
 KINDS = ("first", "last")
+TEMPERATURES = pathlib.Path(__file__).resolve().parents[1] / "data/language_model.toml"
+TUNED = "saca-SmolLM2-135M"  # with which the names of the weights begin that `make model` makes of the adapter
 
 
 def read_replies(path):
@@ -50,6 +54,15 @@ def read_reply(line, place):
         if answer is not None and not examples.are_numbers(answer):
             raise Problem(f"{place}: want eight numbers or null as {kind}, got {answer}")
     return found
+
+
+def temperature_of(path, weights):
+    """What a file like data/language_model.toml has for weights with this name, as saca/lab/model_access/weights.cpp reads it."""
+    try:
+        listed = tomllib.loads(examples.read_text(path))["weights"]
+        return [1.0, *(float(one["temperature"]) for one in listed if weights.startswith(one["name"]))][-1]
+    except (ValueError, KeyError, TypeError) as error:
+        raise Problem(f"{path}: want names and temperatures of weights: {error!r}") from None
 
 
 def asked_tokens(reply, kind, tokens_of):
@@ -103,15 +116,16 @@ def main(arguments):
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--rank", type=int, default=16)
     parser.add_argument("--alpha", type=int, default=32)
-    parser.add_argument("--temperature", type=float, default=1.0, help="of data/language_model.toml, for these weights")
+    parser.add_argument("--temperature", type=float, help=f"that the replies were written with; without, that of data/language_model.toml for {TUNED}")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args(arguments)
     for name in ("count", "rank", "alpha"):
         if getattr(given, name) < 1:
             parser.error(f"--{name}: want at least 1, got {getattr(given, name)}")
-    if not 0.0 < given.temperature < math.inf:
+    if given.temperature is not None and not 0.0 < given.temperature < math.inf:
         parser.error(f"--temperature: want a number above 0, got {given.temperature:g}")
     try:
+        temperature = given.temperature or temperature_of(TEMPERATURES, TUNED)
         rules = examples.read_text(given.system)
         paths = [given.replies, *given.also]
         files = [read_replies(path)[:given.count] for path in paths]
@@ -135,7 +149,7 @@ def main(arguments):
     for same_prompt in zip(*files):
         for reply, of_file in zip(same_prompt, pairs):
             for kind in KINDS:
-                theirs = sharpened(reply[kind], given.temperature)
+                theirs = sharpened(reply[kind], temperature)
                 of_file[kind].append((theirs, reader.probabilities(system + asked_tokens(reply, kind, tokens_of), digits)))
     told = [{"replies": str(path), **{kind: compare(of_file[kind]) for kind in KINDS}} for path, of_file in zip(paths, pairs)]
     disagree = any(one[kind]["same"] < 0.98 * one[kind]["compared"] for one in told for kind in KINDS)

@@ -6,7 +6,9 @@
 #                                            other contents by then: that is refused. Records that cannot be played
 #                                            are told, and left out. `make model` merges it
 #        training/run.sh tune SETS OUTPUT [--steps N] [...]     the training alone (fine_tune.py --help)
-#        training/run.sh agree REPLIES SYSTEM ADAPTER [...]     whether llama.cpp answers as PyTorch does (agreement.py)
+#        training/run.sh agree REPLIES SYSTEM ADAPTER [--temperature T] [...]     whether llama.cpp answers as PyTorch does;
+#                                            T: that REPLIES were written with, else that of data/language_model.toml for
+#                                            the tuned weights (agreement.py --help)
 #        training/run.sh setup               makes the environment only
 # FARS: folders of its releases (docs/cases.md). Needs `make model` and the network at its first run.
 # Versions and sha256: requirements.txt. What came out, and how good it is: docs/language-model.md.

@@ -450,7 +450,7 @@ REPLY = {"schema": "saca.example_reply/2", "example": EXAMPLE, "reasoning": "So 
 
 
 @needs_environment
-def test_agreement_reads_replies(tmp_path):
+def test_agreement_reads_replies_and_temperatures(tmp_path):
     header = {"schema": "saca.example_replies/2", "replies": 1}
     bad = [((), ":1: want a header of saca.example_replies/2"), (([1], REPLY), ":1: want a header"), (({"schema": "saca.cases/1"}, REPLY), ":1: want a header"),
            ((dict(header, replies=3), REPLY), ": want 3 replies, got 1: it is cut"), ((header, [1]), ":2: want a reply as JSON"),
@@ -460,13 +460,15 @@ def test_agreement_reads_replies(tmp_path):
     for k, (documents, _) in enumerate(bad):
         write(tmp_path / f"{k}.jsonl", *documents)
     write(tmp_path / "good.jsonl", dict(header, replies=2), REPLY, dict(REPLY, first=None))
+    (tmp_path / "some.toml").write_text('[[weights]]\nname = "saca"\ntemperature = 2.0\n[[weights]]\nname = "saca-tuned"\ntemperature = 4\n')
+    (tmp_path / "bad.toml").write_text('[[weights]]\nname = "saca"\n')
     told = in_environment(TINY + """
 import agreement, pathlib
 folder = pathlib.Path(sys.argv[1])
 refused = []
-for k in range(int(sys.argv[2])):
+for read in (*(lambda k=k: agreement.read_replies(folder / f"{k}.jsonl") for k in range(int(sys.argv[2]))), lambda: agreement.temperature_of(folder / "bad.toml", "saca")):
     try:
-        agreement.read_replies(folder / f"{k}.jsonl")
+        read()
     except fine_tune.Problem as problem:
         refused.append(str(problem))
 reply = {"example": {"prompt": "a"}, "reasoning": "b", "ended": False}
@@ -474,6 +476,8 @@ asked = [agreement.asked_tokens(one, kind, letters) for one, kind in ((reply, "f
 soft = torch.softmax(torch.tensor([3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], dtype=torch.float64) / 2.5, 0).tolist()
 one_hot = lambda k, p: [p if k == j else (1 - p) / 7 for j in range(8)]
 print(json.dumps({"refused": refused, "good": len(agreement.read_replies(folder / "good.jsonl")),
+                  "temperatures": [agreement.temperature_of(folder / "some.toml", name) for name in ("saca-SmolLM2", "saca-tuned-Q8", "other")],
+                  "shipped": agreement.temperature_of(agreement.TEMPERATURES, agreement.TUNED),
                   "asked": [one == letters(text) for one, text in zip(asked, ("a" + examples.PROMPT_TAIL + " Response to user: ", "a" + examples.PROMPT_TAIL + "b Response to user: ",
                                                                               "a" + examples.PROMPT_TAIL + "b Response to user: "))],
                   "sharpened": agreement.sharpened(soft, 2.5), "plain": torch.softmax(torch.tensor([3.0, 1.0, 0, 0, 0, 0, 0, 0]), 0).tolist(),
@@ -481,9 +485,46 @@ print(json.dumps({"refused": refused, "good": len(agreement.read_replies(folder 
 """, tmp_path, len(bad))
     for k, (said, (_, words)) in enumerate(zip(told["refused"], bad)):
         assert said.startswith(f"{tmp_path}/{k}.jsonl{words}") and "\n" not in said
-    assert len(told["refused"]) == len(bad)
-    assert told["good"] == 1 and told["asked"] == [True] * 3
+    assert told["refused"][-1].startswith(f"{tmp_path}/bad.toml: want names and temperatures") and len(told["refused"]) == len(bad) + 1
+    assert told["good"] == 1 and told["temperatures"] == [2.0, 4.0, 1.0] and told["shipped"] != 1.0 and told["asked"] == [True] * 3
     assert told["sharpened"] == pytest.approx(told["plain"]) and told["compared"] == {"compared": 2, "same": 1, "largest_shift": pytest.approx(0.5 - 0.5 / 7)}
+
+
+@needs_environment
+def test_agreement_undoes_the_temperature_of_the_tuned_weights(tmp_path):
+    """Replies of the model itself, softened by the shipped temperature: no probability differs."""
+    (tmp_path / "base.gguf").write_bytes(b"weights")
+    (tmp_path / "system.txt").write_text("rules")
+    told = in_environment(TINY + ENDS + """
+import agreement, adapter, pathlib, peft
+folder = pathlib.Path(sys.argv[1])
+state = {key: torch.randn(value.shape).half().float() * 0.1 for key, value in peft.get_peft_model_state_dict(model).items()}
+adapter.write_adapter(folder / "adapter.gguf", state, config, 32, folder / "base.gguf", "test")
+def load(base):
+    torch.manual_seed(2)
+    return (lambda text, add_special_tokens: {"input_ids": letters(text)}), transformers.LlamaForCausalLM(config).eval()
+fine_tune.load = load
+given.base = folder / "base.gguf"
+model = fine_tune.with_adapter(load(given.base)[1], given)
+fine_tune.begin_with(model, folder / "adapter.gguf", given)
+reader, replies = agreement.Reader(model), []
+system = examples.system_tokens(letters, "rules")
+for prompt in ("a scene", "a scene that is longer"):
+    reply = {"example": {"prompt": prompt}, "reasoning": "so it is", "ended": False}
+    for kind in agreement.KINDS:
+        right = reader.probabilities(system + agreement.asked_tokens(reply, kind, letters), digits)
+        reply[kind] = agreement.sharpened(right, 1 / agreement.temperature_of(agreement.TEMPERATURES, agreement.TUNED))
+    replies.append(reply)
+(folder / "replies.jsonl").write_text("".join(json.dumps(one) + "\\n" for one in [{"schema": agreement.REPLIES_SCHEMA, "replies": 2}, *replies]))
+files = [folder / "replies.jsonl", folder / "system.txt", folder / "base.gguf", folder / "adapter.gguf", "--rank", "4", "--json"]
+found = []
+for more in ([], ["--temperature", "1"]):
+    code, said = end_of(agreement.main, *files, *more)
+    found.append([code, json.loads(said)["files"][0]["last"]])
+print(json.dumps(found))
+""", tmp_path)
+    (code, by_itself), (_, without) = told
+    assert code == 0 and by_itself["same"] == 2 and by_itself["largest_shift"] < 1e-4 < 1e-2 < without["largest_shift"]
 
 
 @pytest.fixture
