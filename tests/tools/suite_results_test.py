@@ -218,9 +218,10 @@ def test_tables_have_replies_and_what_was_in_time_where_a_model_was_asked():
     for key in ("collision_loss", "false_trigger_loss"):
         for draws, n in (("", 60), (".ten_draws", 10)):
             figures |= {f"tables.3.saca.{key}{draws}{end}": value for end, value in (("", 0.5), (".lo", 0.25), (".hi", 0.75), (".n", n))}
+    figures |= {f"tables.3.saca.harm_over_aeb{end}": value for end, value in (("", -0.5), (".lo", -0.75), (".hi", -0.25))}
     text = suite_results.tables_section(figures)
     assert "## Tables II and III of the paper" in text and "Table III, 60 encounters" in text and "Table II," not in text and "in time" not in text
-    assert "| `saca` | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) |" in text
+    assert "| `saca` | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | -0.5000 (-0.7500 to -0.2500) |" in text
     figures |= {f"tables.3.saca.collision_loss.in_time{end}": value for end, value in (("", 0.12), (".lo", 0.0), (".hi", 0.25), (".n", 7))}
     figures |= {"tables.4.3.model.asked": 20, "tables.4.3.model.done": 19, "tables.4.3.model.ended": 18, "tables.4.3.model.in_time": 12, "tables.4.3.model.least_seconds": 2.2,
                 "tables.4.3.untuned.asked": 20, "tables.4.3.untuned.done": 0, "tables.4.3.untuned.ended": 0, "tables.4.3.untuned.in_time": 0}
