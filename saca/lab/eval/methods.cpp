@@ -52,8 +52,10 @@ constexpr std::array<MethodInfo, 42> infos{{
     {"saca_reflex", "SACA, the reflex plane alone",
      "As SACA by its interface for C: neither forecaster, memory nor model; the atlas judges."},
     {"saca_paper", "SACA, as in the paper",
-     "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
-     "is held against braking."},
+     "Algorithm 1: a cached plan above 90 %, else emergency braking at T1, and nothing is held "
+     "against braking. Unlike it: memory's confidence is that of many cases, a plan is given up "
+     "when its facts have changed against it, and of a reply that comes late its first answer "
+     "counts."},
     {"saca_paper_at_once", "The same, first answers only",
      "As saca_paper; the language model's answer right after the prompt, before it writes a word.",
      false, Needs::model},

@@ -31,9 +31,9 @@ constexpr std::array<PaperTable, 3> all_tables{
       "intersection_t1", "intersection_t1_truck_brakes", "ego.speed_mps=10:15:1",
       intersection_rows},
      {"table_2_late",
-      "Table II with a late truck (ours): whoever stops is struck",
+      "Table II with a late truck (ours): at 14 m/s whoever brakes at T1 is struck",
       "The same 1.87 s later, a queue barring the way ahead: the story of Fig. 9, which the "
-      "printed distances do not give",
+      "printed distances do not give; without risk the truck brakes and nobody queues",
       "intersection_late_truck",
       "intersection_late_truck_brakes",
       "ego.speed_mps=10:15:1",

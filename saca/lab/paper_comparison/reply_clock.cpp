@@ -12,9 +12,8 @@ namespace {
 using eval::PaperTable;
 
 /// The first questions in about ten draws of a table, as many of each condition.
-Result<std::vector<language_model::Question>> questions_of(const PaperTable& table,
-                                                           const ReplyClock& clock,
-                                                           std::uint64_t seed) {
+Result<std::vector<FirstQuestion>> questions_of(const PaperTable& table, const ReplyClock& clock,
+                                                std::uint64_t seed) {
   const auto conditions = eval::encounters_of(table, clock.scenarios, *clock.car);
   if (!conditions.has_value()) {
     return conditions.error();
@@ -42,7 +41,6 @@ std::vector<AskedModel> asked_models(const suites::ThinkingOptions& thinking) {
 }
 
 Result<std::vector<TimedModel>> timed_models(const ReplyClock& clock, const TableRequest& request) {
-  const reflex::Thresholds& thresholds = clock.setup->thresholds;
   constexpr double patience = 60.0;  // [s]
   const long_work::InterruptStop interrupt;
   std::vector<TimedModel> timed;
@@ -60,9 +58,8 @@ Result<std::vector<TimedModel>> timed_models(const ReplyClock& clock, const Tabl
       if (!model.has_value()) {
         return model.error();
       }
-      const auto times =
-          timed_replies(*model.value(), *clock.setup->clock, questions.value(),
-                        thresholds.preview - thresholds.trigger, patience, interrupt.token());
+      const auto times = timed_replies(*model.value(), *clock.setup->clock, questions.value(),
+                                       patience, interrupt.token());
       if (!times.has_value()) {
         return Error{times.error().code,
                      fmt::format("{}: {}", asked.option, times.error().message)};

@@ -30,12 +30,13 @@ class Listening final : public language_model::LanguageModel {
 
 }  // namespace
 
-std::vector<language_model::Question> first_questions(
-    std::span<const eval::SuiteEncounter> encounters, const eval::SuiteOptions& options,
-    const runtime::PlanesSetup& saca, const intent::Model& intent) {
+std::vector<FirstQuestion> first_questions(std::span<const eval::SuiteEncounter> encounters,
+                                           const eval::SuiteOptions& options,
+                                           const runtime::PlanesSetup& saca,
+                                           const intent::Model& intent) {
   eval::SuiteOptions alone = options;
   alone.methods = {"saca"};
-  std::vector<language_model::Question> questions;
+  std::vector<FirstQuestion> questions;
   for (const eval::SuiteEncounter& encounter : encounters) {
     Listening listening;
     runtime::PlanesSetup setup = saca;
@@ -43,21 +44,21 @@ std::vector<language_model::Question> first_questions(
     setup.model = &listening;
     eval::SuiteEncounter with_risk = encounter;
     with_risk.twin.reset();
-    (void)run_encounter(with_risk, alone, setup, intent);
-    if (!listening.first().scenes.empty()) {
-      questions.push_back(listening.first());
+    const eval::Comparison played = run_encounter(with_risk, alone, setup, intent).risk;
+    if (!listening.first().scenes.empty() && played.woke && played.trigger) {
+      questions.push_back({listening.first(), *played.trigger - *played.woke});
     }
   }
   return questions;
 }
 
 Result<ReplyTimes> timed_replies(language_model::LanguageModel& model, const Clock& clock,
-                                 std::span<const language_model::Question> questions,
-                                 double in_time, double patience, const std::stop_token& stop) {
+                                 std::span<const FirstQuestion> questions, double patience,
+                                 const std::stop_token& stop) {
   ReplyTimes times;
   std::vector<std::optional<double>> tokens;
   std::vector<std::optional<double>> seconds;
-  for (const language_model::Question& question : questions) {
+  for (const auto& [question, window] : questions) {
     if (stop.stop_requested()) {
       break;
     }
@@ -82,7 +83,7 @@ Result<ReplyTimes> timed_replies(language_model::LanguageModel& model, const Clo
       const double took = to_seconds(reply.answers.back().time - begin);
       ++done;
       times.ended += reply.answers.back().kind == Kind::ended ? 1 : 0;
-      times.in_time += took <= in_time ? 1 : 0;
+      times.in_time += took <= window ? 1 : 0;
       times.least_seconds = std::min(times.least_seconds.value_or(took), took);
       tokens_of_them += reply.reply_tokens;
       seconds_of_them += took;

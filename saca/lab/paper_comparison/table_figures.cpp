@@ -18,8 +18,8 @@ std::vector<MethodFigures> figures_of(const std::vector<const SuiteRow*>& rows,
   return eval::suite_figures(rows, methods, suites::index_of(methods, "aeb"), seed);
 }
 
-/// The paper's filter: was the model asked, and did each of its replies come to its end before the
-/// trigger that it was about?
+/// Like the paper's filter: was the model asked, and did each of its replies end by itself before
+/// the trigger that it was about? One that was stopped at its last token did not.
 bool is_in_time(const eval::MethodRun& run) {
   return run.thinking && run.thinking->asked > 0 && run.thinking->ended == run.thinking->asked;
 }

@@ -12,7 +12,8 @@
 namespace saca::paper_comparison {
 
 /// The figures of one table: of the first draws of each condition, of all, and of each method that
-/// asks a model over the encounters in which all replies to it came in time.
+/// asks a model over the encounters in which every reply ended by itself before T1, as far as
+/// replies are charged time in lockstep.
 struct TableFigures {
   const eval::PaperTable* table = nullptr;
   std::vector<eval::MethodFigures> few;

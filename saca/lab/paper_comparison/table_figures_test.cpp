@@ -19,7 +19,7 @@ TEST(TableFigures, AreOfFewDrawsAndOfAll) {
   EXPECT_DOUBLE_EQ(figures.all[0].over_aeb.value, 0.075 - 0.1);
 }
 
-// The paper's filter: asked at all, and each reply came to its end.
+// Like the paper's filter: asked at all, and each reply came to its end by itself.
 TEST(TableFigures, InTimeIsWhereEveryReplyCameToItsEnd) {
   const TableFigures figures = some_figures();
   ASSERT_EQ(figures.in_time.size(), 2U);

@@ -53,9 +53,10 @@ report::PageTable page_table(const TableFigures& figures) {
   report::PageTable page{
       .heading = std::string(figures.table->title),
       .lines = {std::string(figures.table->conditions) +
-                ". Published rows are from another simulator and of 10 trials."},
+                ". Published rows are of a real car, 10 trials each; the trucks and cars that it "
+                "met were virtual, or barriers."},
       .columns = {"Collision Loss, " + draws(figures.few), draws(figures.all),
-                  "where all replies came in time", "False-Trigger Loss, " + draws(figures.few),
+                  "where each reply ended by itself", "False-Trigger Loss, " + draws(figures.few),
                   draws(figures.all), "harm above AEB's"},
       .rows = {},
       .chart = report::DotChart{.heading = "Collision Loss",
@@ -81,7 +82,9 @@ report::PageTable replies_table(const std::vector<TimedModel>& timed) {
       .lines =
           {"What SACA asks first in some draws of each table, up to three forecasts at once, put "
            "to the model by itself at real pace. A reply is done when it ends by itself or has "
-           "as many tokens as it may; the local model may write 112. In time: within T2 - T1."},
+           "as many tokens as it may; the local model may write 112. In time: from T2, or from "
+           "when "
+           "who threatens is first seen within it, to T1 of the same draw."},
       .columns = {"forecasts", "done", "ended", "tokens", "seconds", "least", "in time"},
       .rows = {},
       .chart = {}};

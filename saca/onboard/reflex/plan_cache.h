@@ -23,7 +23,7 @@ enum class Source : std::uint8_t {
 enum class Guard : std::uint8_t {
   never_worse_than_braking,  ///< what is not admissible is not carried out, and what is carried out
                              ///< is supervised: nothing is known to be worse than braking
-  none,                      ///< Algorithm 1 of the paper to the letter: a plan that memory holds
+  none,                      ///< Algorithm 1 of the paper: a plan that memory holds
                              ///< (above 90 %) or the model chose is cached unchecked, and carried
                              ///< out where its situation matches
 };
