@@ -17,6 +17,10 @@ struct BuildCasesOptions : cases::CaseBuildRequest {
 
 ExitCode build_crash_cases(const BuildCasesOptions& options) {
   const cases::CaseOutputs& outputs = options.outputs;
+  need_distinct({{"--output", outputs.cases},
+                 {"--for-memory", outputs.memory},
+                 {"--drivers", outputs.drivers}},
+                {{"--journal", options.journal}});
   need_writable({outputs.cases, outputs.memory, outputs.drivers});
   if (options.folders.empty() && options.hundred_car.empty()) {
     refuse(wrong_command_line, "want folders with releases of FARS, or --hundred-car; got neither");

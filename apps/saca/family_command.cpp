@@ -14,6 +14,7 @@ struct FamilyOptions : family_samples::FamilyRequest {
 
 void draw_family(const FamilyOptions& options) {
   const fs::path folder = options.write;
+  need_distinct({{"--svg", options.svg}}, {{"the family", options.name}});
   need_writable({options.svg, folder.empty() ? fs::path() : folder / "x.toml"});
   const auto drawn = need(family_samples::drawn_family(here(), options));
   json list = json::array();

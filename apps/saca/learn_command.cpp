@@ -23,8 +23,11 @@ ExitCode learn(const LearnOptions& options) {
   if (request.folder.empty()) {
     request.folder = usual_folder(request);
   }
-  need_writable({curricula::journal_place(request), options.svg});
-  need(long_work::make_folder_of(curricula::journal_place(request)));
+  const fs::path journal = curricula::journal_place(request);
+  need_distinct({{"--svg", options.svg}},
+                {{"--memory", request.from.thinking.memory}, {"the journal", journal}});
+  need_writable({journal, options.svg});
+  need(long_work::make_folder_of(journal));
   need(curricula::why_in_the_way(request.from.thinking.memory, request.folder));
   long_work::watch_for_interrupt();
   curricula::Lessons lessons = need(curricula::open_lessons(here(), request));

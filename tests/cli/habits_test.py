@@ -48,10 +48,20 @@ SMALL = ROOT / "saca/lab/recordings/testdata/commonroad_small.xml"
     (("import", "commonroad", "small.xml", "--output", "small.xml"), "--output: want another file than the recording, got small.xml"),
     (("oracle", "s.toml", "--svg", "s.toml"), "--svg: want another file than the scenario, got s.toml"),
     (("whatif", "s.toml", "--vary", "grip=0.5:0.9:0.4", "--svg", "s.toml"), "--svg: want another file than the scenario, got s.toml"),
+    (("learn", "balanced", "--memory", "m.sqlite", "--svg", "m.sqlite"), "--svg: want another file than --memory, got m.sqlite"),
+    (("learn", "balanced", "-o", "way", "--svg", "way/episodes.journal"), "--svg: want another file than the journal"),
+    (("family", "f.toml", "--svg", "f.toml"), "--svg: want another file than the family, got f.toml"),
+    (("drive", "--policy", 0, "--car", "car.toml", "--report", "car.toml"), "--report: want another file than --car, got car.toml"),
+    (("atlas", "build", "--car", "car.toml", "--output", "car.toml"), "--output: want another file than --car, got car.toml"),
+    (("atlas", "package", "a.atlas", "--output", "a.atlas"), "--output: want another file than the atlas, got a.atlas"),
+    (("cases", "build", ".", "-o", "c.jsonl", "--for-memory", "c.jsonl"), "--for-memory: want another file than --output, got c.jsonl"),
 ])
 def test_no_output_is_written_over_an_input_or_another_output(arguments, words, tmp_path):
     (tmp_path / "s.toml").write_text((ROOT / "scenarios/intersection_t1.toml").read_text())
     (tmp_path / "small.xml").write_text(SMALL.read_text())
+    for ending in ("toml", "tuning.toml"):
+        (tmp_path / f"car.{ending}").write_text((ROOT / f"data/vehicles/compact_rwd_ev.{ending}").read_text())
+    (tmp_path / "f.toml").write_text((ROOT / "scenarios/families/crossing.toml").read_text())
     for record in ("r.json", "report.html"):
         (tmp_path / record).write_text("a record")
     (tmp_path / "link.json").symlink_to("r.json")
@@ -139,8 +149,9 @@ def test_the_table_of_exit_codes_has_all_of_them():
 
 
 def test_quiet_leaves_errors_and_what_was_asked_for(tmp_path):
-    usual = saca("suite", "crossing", "--count", 2, "--output", "a.h5", cwd=tmp_path)
-    still = saca("--quiet", "suite", "crossing", "--count", 2, "--output", "b.h5", cwd=tmp_path)
+    few = ("suite", "crossing", "--count", 2, "--methods", "aeb", "--output")
+    usual = saca(*few, "a.h5", cwd=tmp_path)
+    still = saca("--quiet", *few, "b.h5", cwd=tmp_path)
     assert usual.returncode == still.returncode == SUCCESS
     assert "2 of at most 2" in usual.stderr and still.stderr == ""
     assert "regret" in still.stdout  # the table is what was asked for
@@ -189,7 +200,7 @@ def digits_of(number):
 
 @pytest.mark.parametrize("arguments", [
     ("oracle", "showcase_3", "--draws", 20), ("whatif", "intersection_t1", "--at-s", 5, "--vary", "grip=0.1:0.9:0.1"),
-    ("physics",), ("harm",), ("atlas", "info"), ("family", "crossing", "--sample", 5), ("suite", "crossing", "--count", 3),
+    ("physics",), ("harm",), ("atlas", "info"), ("family", "crossing", "--sample", 5), ("suite", "crossing", "--count", 3, "--methods", "saca,aeb"),
     ("suite", "r152", "--methods", "aeb"), ("balance", "--count", 5), ("forecast", "eval", "crossing", "--count", 3),
 ])
 def test_numbers_are_as_a_person_would_write_them(arguments, tmp_path):
