@@ -16,9 +16,9 @@ target_compile_options(saca_test_flags INTERFACE -O0
   $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
 target_link_libraries(saca_test_flags INTERFACE saca_flags)
 
-# Another build folder of the same sources. What only computes, numbers in and numbers out (COMPUTES), is
-# taken from there as it is, and so are the objects of tests: a sanitiser's build then takes a fifth of the
-# time, and sees all code that reads what comes from outside, shares memory or begins processes.
+# Another build folder of the same sources. What only computes, or puts together what computes and tells of it
+# (COMPUTES), is taken from there as it is, and so are the objects of tests: a sanitiser's build then takes a fifth
+# of the time, and sees the code that reads what comes from outside, shares memory or begins processes.
 set(SACA_TAKE_FROM "" CACHE PATH "A finished build folder to take computing modules and tests' objects from")
 
 # All test programs, which `cmake --build --target tests` builds.
@@ -57,19 +57,20 @@ function(saca_gtest test target)
 endfunction()
 
 # saca_module(<name> [NOT_INSTALLED] [SOURCES <a.cpp>...] [DEPS <module>...] [TEST_DEPS <module>...]
-#             [THREADS <filter>] [ALONE <a_test.cpp>] [COMPUTES] [INNER_LOOPS])
+#             [THREADS <filter>] [LONG <filter>] [ALONE <a_test.cpp>] [COMPUTES] [INNER_LOOPS])
 #
 # Makes the library saca::<name> from the current folder. All <a>_test.cpp in the folder become one
 # program, <name>_test, and the test <name>, but one that asks for a process of its own (ALONE); a
 # source without one stops the configuration. All <a>_bench.cpp become the program <name>_bench, run for an instant as a test so that it cannot rot.
 # One more test checks that the folder includes only the modules in DEPS; tests may use those in TEST_DEPS, too,
 # which may stand above. Tests run in the project's folder. Under the thread sanitiser there is only the test <name>.threads: those that match THREADS.
+# LONG: tests that compute for long, or play whole encounters as others do, too; `asan-quick` leaves them out, `asan` does not.
 # INNER_LOOPS: what all others spend their time in is optimised in a sanitiser's build, too.
 #
 # Files of tests are compiled together where builds are (CMAKE_UNITY_BUILD), so each has a namespace of
 # its own: saca::<name>::<a>_test.
 function(saca_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;COMPUTES;INNER_LOOPS" "THREADS;ALONE" "SOURCES;DEPS;TEST_DEPS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;COMPUTES;INNER_LOOPS" "THREADS;LONG;ALONE" "SOURCES;DEPS;TEST_DEPS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "saca_module(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -141,7 +142,11 @@ function(saca_module name)
     endif()
     return()
   endif()
-  saca_gtest(${name} ${name}_test)
+  if(SACA_TAKE_FROM AND arg_LONG)
+    saca_gtest(${name} ${name}_test --gtest_filter=-${arg_LONG})
+  else()
+    saca_gtest(${name} ${name}_test)
+  endif()
   if(arg_ALONE)
     cmake_path(GET arg_ALONE STEM alone)
     saca_test(${name}_${alone} ${arg_ALONE} LIBRARIES saca::${name} ${test_libraries})

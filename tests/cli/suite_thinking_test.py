@@ -3,6 +3,7 @@ import html.parser
 import json
 import pathlib
 import re
+import shutil
 import sys
 
 import pytest
@@ -12,9 +13,11 @@ from chat_server import server  # noqa: F401, a fixture
 from program import BAD_INPUT, SUCCESS, figures, interrupted_while_silent, one_error, saca
 
 
-def taught(folder, count=4):
+@pytest.fixture(scope="module")
+def taught(tmp_path_factory):
     """A memory of the encounters that the suite has, as SACA lived through them."""
-    for number in range(count):
+    folder = tmp_path_factory.mktemp("taught")
+    for number in range(4):
         words = saca("suite", "balanced", "--replay", number, cwd=folder).stdout.split()
         words.remove("--no-memory")
         run = saca(*words[1:], "--danger", "off", "--memory", "m.sqlite", "--empty-memory", "--json", cwd=folder)
@@ -22,8 +25,8 @@ def taught(folder, count=4):
     return folder / "m.sqlite"
 
 
-def test_memory_is_asked_and_not_taught(tmp_path):
-    memory = taught(tmp_path)
+def test_memory_is_asked_and_not_taught(taught, tmp_path):
+    memory = pathlib.Path(shutil.copy(taught, tmp_path))
     before = memory.read_bytes()
     few = ("--memory", "m.sqlite", "--methods", "saca,saca_no_memory,aeb", "--count", 4, "--json", "--no-twins")
     told = figures(saca("suite", "balanced", *few, "--threads", 1, "--output", "a.h5", cwd=tmp_path))
@@ -51,8 +54,8 @@ def test_memory_is_asked_and_not_taught(tmp_path):
     assert "5 cases" in one_error(saca("suite", "balanced", *few, "--output", "a.h5", cwd=tmp_path), BAD_INPUT)
 
 
-def test_an_encounter_with_memory_is_replayed_without_learning(tmp_path):
-    memory = taught(tmp_path)
+def test_an_encounter_with_memory_is_replayed_without_learning(taught, tmp_path):
+    memory = pathlib.Path(shutil.copy(taught, tmp_path))
     before = memory.read_bytes()
     told = figures(saca("suite", "balanced", "--memory", "m.sqlite", "--methods", "saca", "--count", 4, "--json", "--output", "s.h5", cwd=tmp_path))
     assert told["suite.balanced.saca.forecasts"] > 0
@@ -125,8 +128,8 @@ def test_a_suite_is_interrupted_while_its_model_is_silent(server, tmp_path):
     assert len((tmp_path / "s.h5.journal").read_text().splitlines()) == 1
 
 
-def test_the_ladder_has_a_rung_for_what_memory_holds(tmp_path):
-    taught(tmp_path, 2)
+def test_the_ladder_has_a_rung_for_what_memory_holds(taught, tmp_path):
+    shutil.copy(taught, tmp_path)
     told = figures(saca("ladder", "balanced", "--memory", "m.sqlite", "--count", 2, "--json", "--output", "l.json", cwd=tmp_path))
     assert told["ladder.balanced.saca.step_from.aeb"] == pytest.approx(told["ladder.balanced.saca"] - told["ladder.balanced.aeb"], abs=1e-9)
     assert told["ladder.balanced.saca.forecasts"] > 0
