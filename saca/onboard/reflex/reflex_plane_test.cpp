@@ -150,7 +150,7 @@ TEST(ReflexPlane, ActsBeforeT1WhereWaitingCostsTooMuch) {
   ASSERT_TRUE(early.has_value());
   EXPECT_EQ(early->waiting_cost, 0.02);
   EXPECT_EQ(early->source, Source::arbiter);
-  EXPECT_FALSE(step(0.005, 2.4, {})) << "so much is not worth it";
+  EXPECT_FALSE(step(0.002, 2.4, {})) << "so much is not worth it";
   EXPECT_FALSE(step(0.02, 6.0, {})) << "beyond T2";
   ReflexPlane late{ReflexTools{}};
   late.receive(waiting_costs(0.0, 0.02));
