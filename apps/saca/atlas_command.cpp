@@ -1,5 +1,4 @@
 #include "apps/saca/options.h"
-#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/vehicle_study/atlas_check_run.h"
 #include "saca/lab/vehicle_study/atlas_report.h"
 #include "saca/lab/vehicle_study/kept_atlas.h"
@@ -27,10 +26,6 @@ fs::path file_of(const AtlasOptions& options, const Inputs& inputs) {
                               : fs::path(options.file);
 }
 
-NamedFile car_file(const AtlasOptions& options) {
-  return {"--car", need(installation::find_car(here(), options.car))};
-}
-
 double megabytes(std::size_t bytes) {
   return 1e-6 * static_cast<double>(bytes);
 }
@@ -38,7 +33,7 @@ double megabytes(std::size_t bytes) {
 void build_atlas(const AtlasOptions& options) {
   const auto inputs = read_inputs(options.car);
   const fs::path output = file_of(options, inputs);
-  need_distinct({{"--output", output}}, {car_file(options)});
+  need_distinct({{"--output", output}}, {car_file(options.car)});
   if (atlas::read_atlas(output, inputs.car).has_value()) {
     app::print("{} is there and right for this car\n", output.string());
     return;
@@ -61,7 +56,7 @@ void package_atlas(const AtlasOptions& options) {
   const fs::path atlas = file_of(options, inputs);
   const std::string output =
       options.package.empty() ? inputs.car_name + ".vehicle" : options.package;
-  need_distinct({{"--output", output}}, {car_file(options), {"the atlas", atlas}});
+  need_distinct({{"--output", output}}, {car_file(options.car), {"the atlas", atlas}});
   const std::string bytes = need(vehicle_study::package_of(
       {.car_name = inputs.car_name,
        .car = &inputs.car,

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/long_work/output_file.h"
 
 namespace saca::app {
@@ -125,6 +126,10 @@ installation::Inputs read_inputs(const std::string& car) {
 
 installation::ScenarioInputs read_scenario_inputs(const std::string& scenario) {
   return need(installation::read_scenario_inputs(here(), scenario));
+}
+
+NamedFile car_file(const std::string& car) {
+  return {"--car", need(installation::find_car(here(), car))};
 }
 
 CLI::App& add_group(CLI::App& parent, const std::string& name, const std::string& about) {

@@ -166,6 +166,9 @@ struct Settings {
 [[nodiscard]] installation::Inputs read_inputs(const std::string& car);
 [[nodiscard]] installation::ScenarioInputs read_scenario_inputs(const std::string& scenario);
 
+/// The file of a car that --car names, for need_distinct.
+[[nodiscard]] NamedFile car_file(const std::string& car);
+
 /// The commit that the program was built from: "13bf0c6a2b1d", with "-dirty" behind it where files
 /// had been changed; "unknown" where that was no checkout. Defined in a file that is made in every
 /// build (cmake/Commit.cmake).

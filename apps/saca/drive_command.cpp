@@ -1,5 +1,4 @@
 #include "apps/saca/options.h"
-#include "saca/lab/installation/shipped_files.h"
 #include "saca/lab/report/record_page.h"
 #include "saca/lab/vehicle_study/drive_study.h"
 
@@ -17,8 +16,7 @@ void drive(const DriveOptions& options) {
   vehicle_study::DriveQuestion question = options.question;
   question.policy = *options.policy;
   const auto car = need(installation::read_named_car(here(), question.car));
-  need_distinct({{"--report", options.report}},
-                {{"--car", need(installation::find_car(here(), question.car))}});
+  need_distinct({{"--report", options.report}}, {car_file(question.car)});
   need_writable({options.report});
   report::DriveRecord driven =
       vehicle_study::record_of(question, "saca " SACA_VERSION, car.name, car.car);
