@@ -21,11 +21,9 @@ TableBook empty_book(const TableRequest& request, std::string_view version) {
       "Published: arXiv 2504.00115; its text gives 1.54 for SACA's Collision Loss in the "
       "intersection, its table 0.54. It counts only replies within T2 - T1; ours are counted "
       "whether they come in time or not, and beside it, for Collision Loss, the encounters in "
-      "which "
-      "each reply ended by itself in the time that it is charged in lockstep. \"SACA\" here is "
-      "held "
-      "to the verdict; the paper's own rule is \"SACA, as in the paper\", with what was given as "
-      "--llm: without a model it brakes, unless memory knows better.",
+      "which each reply ended by itself in the time that it is charged in lockstep. \"SACA\" here "
+      "is held to the verdict; the paper's own rule is \"SACA, as in the paper\", with what was "
+      "given as --llm: without a model it brakes, unless memory knows better.",
       "T1 here is counted from bumper to edge, and comes 0.4 to 0.5 s before the paper's, which is "
       "counted between centres: in Tables II and III full braking is enough, so that their "
       "Collision Loss tells apart only who does something else. \"Best in hindsight\" is the plan "

@@ -83,8 +83,7 @@ report::PageTable replies_table(const std::vector<TimedModel>& timed) {
           {"What SACA asks first in some draws of each table, up to three forecasts at once, put "
            "to the model by itself at real pace. A reply is done when it ends by itself or has "
            "as many tokens as it may; the local model may write 112. In time: from T2, or from "
-           "when "
-           "who threatens is first seen within it, to T1 of the same draw."},
+           "when who threatens is first seen within it, to T1 of the same draw."},
       .columns = {"forecasts", "done", "ended", "tokens", "seconds", "least", "in time"},
       .rows = {},
       .chart = {}};
