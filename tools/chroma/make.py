@@ -1,7 +1,6 @@
 """The memory bank beside Chroma: see run.sh."""
 import argparse
 import copy
-import gzip
 import json
 import math
 import os
@@ -11,9 +10,11 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+import shippable_cases
+
 PROGRAM = os.environ.get("SACA_PROGRAM", str(ROOT / "build/release/saca"))
 NUM_FOUND = 50
 MOST_ACTORS = 4  # in a vector
@@ -29,20 +30,16 @@ class Problem(Exception):
 
 
 def read_cases(path):
-    """The cases of a JSON Lines file, without its first line."""
-    opened = gzip.open if str(path).endswith(".gz") else open
+    """The cases of a file, at least one."""
     try:
-        with opened(path, "rt", encoding="utf-8") as file:
-            header, *cases = [json.loads(line) for line in file]
-    except (OSError, ValueError, EOFError, zlib.error) as problem:
-        raise Problem(f"{path}: want cases as JSON Lines, got {problem}") from problem
-    if not isinstance(header, dict) or header.get("schema") != "saca.cases/1" or not cases:
-        raise Problem(f"{path}: want schema saca.cases/1 and at least one case")
-    if header.get("cases") != len(cases):
-        raise Problem(f"{path}: want {header.get('cases')} cases, as the header says, got {len(cases)}: it is cut or was lengthened")
+        _, cases = shippable_cases.read_cases(pathlib.Path(path))
+    except SystemExit as problem:
+        raise Problem(problem.code) from None
+    if not cases:
+        raise Problem(f"{path}: want at least one case")
     for number, case in enumerate(cases, start=2):
-        if not isinstance(case, dict) or not {"source", "scene"} <= case.keys():
-            raise Problem(f'{path}:{number}: want a case with its "source" and "scene", got none')
+        if "scene" not in case:
+            raise Problem(f'{path}:{number}: want a case with its "scene", got none')
     return cases
 
 
