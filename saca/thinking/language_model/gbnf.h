@@ -11,6 +11,10 @@
 /// Pieces of grammars in llama.cpp's notation.
 namespace saca::language_model::gbnf {
 
+/// The rule of the statement that a reply comes to. A reply that has to be brief goes there as soon
+/// as its grammar lets it.
+constexpr std::string_view conclusion_rule = "conclusion";
+
 /// A text as it stands.
 inline std::string literal(std::string_view text) {
   expects(text.find_first_of("\"\\\n") == std::string_view::npos, "words without marks of GBNF");

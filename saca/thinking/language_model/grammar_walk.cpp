@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "saca/thinking/language_model/gbnf.h"
+
 namespace saca::language_model {
 namespace {
 
@@ -65,6 +67,13 @@ class Builder {
     if (nodes_.size() >= most_nodes) {
       return refuse();
     }
+    for (std::size_t i = 0; i < node.next.size(); ++i) {
+      if (node.brief.value_or(i) == i) {
+        const Node& next = nodes_[static_cast<std::size_t>(node.next[i])];
+        node.longest_brief = std::max(node.longest_brief, next.longest_brief);
+      }
+    }
+    node.longest_brief += node.is_byte ? 1 : 0;
     nodes_.push_back(std::move(node));
     return static_cast<int>(nodes_.size()) - 1;
   }
@@ -88,18 +97,25 @@ class Builder {
   int alternatives(std::string_view text, int next) {
     Node ways;
     std::vector<Item> sequence;
+    const auto end_way = [&] {
+      if (sequence.size() == 1 && sequence.front().kind == Kind::rule &&
+          sequence.front().text == gbnf::conclusion_rule) {
+        ways.brief = ways.next.size();
+      }
+      ways.next.push_back(this->sequence(sequence, next));
+      sequence.clear();
+    };
     while (!text.empty() && !is_refused_) {
       if (text.front() == ' ') {
         text.remove_prefix(1);
       } else if (text.front() == '|') {
-        ways.next.push_back(this->sequence(sequence, next));
-        sequence.clear();
+        end_way();
         text.remove_prefix(1);
       } else {
         sequence.push_back(item(text));
       }
     }
-    ways.next.push_back(this->sequence(sequence, next));
+    end_way();
     return ways.next.size() == 1 ? ways.next.front() : add(std::move(ways));
   }
 
@@ -108,7 +124,7 @@ class Builder {
       const int before = it->kind == Kind::literal ? literal(it->text, next)
                          : it->kind == Kind::rule  ? rule(it->text, next)
                                                    : alternatives(it->text, next);
-      next = it->may_be_missing ? add({.next = {before, next}}) : before;
+      next = it->may_be_missing ? add({.next = {before, next}, .brief = 1}) : before;
     }
     return next;
   }
@@ -196,49 +212,42 @@ std::optional<GrammarWalk> GrammarWalk::make(std::string_view grammar) {
   return GrammarWalk(std::make_shared<const Nodes>(std::move(builder).nodes()), *root);
 }
 
-GrammarWalk::GrammarWalk(std::shared_ptr<const Nodes> nodes, int root) : nodes_(std::move(nodes)) {
-  add(*nodes_, root, here_);
-}
-
-void GrammarWalk::add(const Nodes& nodes, int first, std::vector<int>& all) {
-  std::vector<int> left{first};
-  std::set<int> seen(all.begin(), all.end());
+std::vector<int> GrammarWalk::reachable(const std::vector<int>& nodes, Rest rest) const {
+  std::vector<int> all;
+  std::vector<int> left(nodes.rbegin(), nodes.rend());
+  std::set<int> seen;
   while (!left.empty()) {
-    const int node = left.back();
+    const int index = left.back();
     left.pop_back();
-    if (!seen.insert(node).second) {
+    if (!seen.insert(index).second) {
       continue;
     }
-    const Node& it = nodes[static_cast<std::size_t>(node)];
-    if (node == the_end || it.is_byte) {
-      all.push_back(node);
+    const Node& it = node(index);
+    if (index == the_end || it.is_byte) {
+      all.push_back(index);
+    } else if (rest == Rest::brief && it.brief) {
+      left.push_back(it.next[*it.brief]);
     } else {
       left.insert(left.end(), it.next.begin(), it.next.end());
-    }
-  }
-}
-
-std::vector<int> GrammarWalk::behind(const std::vector<int>& here, char byte) const {
-  std::vector<int> all;
-  for (const int node : here) {
-    const Node& it = (*nodes_)[static_cast<std::size_t>(node)];
-    if (it.is_byte && it.byte == byte) {
-      add(*nodes_, it.next.front(), all);
     }
   }
   return all;
 }
 
-void GrammarWalk::take(std::string_view text) {
-  for (const char byte : text) {
-    here_ = behind(here_, byte);
+std::vector<int> GrammarWalk::behind(const std::vector<int>& all, char byte) const {
+  std::vector<int> nodes;
+  for (const int index : all) {
+    if (const Node& it = node(index); it.is_byte && it.byte == byte) {
+      nodes.push_back(it.next.front());
+    }
   }
+  return nodes;
 }
 
-std::string GrammarWalk::bytes_at(const std::vector<int>& here) const {
+std::string GrammarWalk::bytes_of(const std::vector<int>& all) const {
   std::string bytes;
-  for (const int node : here) {
-    if (const Node& it = (*nodes_)[static_cast<std::size_t>(node)]; it.is_byte) {
+  for (const int index : all) {
+    if (const Node& it = node(index); it.is_byte) {
       bytes += it.byte;
     }
   }
@@ -247,23 +256,37 @@ std::string GrammarWalk::bytes_at(const std::vector<int>& here) const {
   return bytes;
 }
 
-std::string GrammarWalk::possible() const {
-  return bytes_at(here_);
+void GrammarWalk::take(std::string_view text) {
+  for (const char byte : text) {
+    here_ = behind(reachable(here_, Rest::any), byte);
+  }
 }
 
-std::string GrammarWalk::forced() const {
+std::string GrammarWalk::possible(Rest rest) const {
+  return bytes_of(reachable(here_, rest));
+}
+
+std::string GrammarWalk::forced(Rest rest) const {
   std::string text;
-  std::vector<int> here = here_;
+  std::vector<int> all = reachable(here_, rest);
   // Nobody has to go on where the text may end.
-  while (std::find(here.begin(), here.end(), the_end) == here.end()) {
-    const std::string bytes = bytes_at(here);
+  while (std::find(all.begin(), all.end(), the_end) == all.end()) {
+    const std::string bytes = bytes_of(all);
     if (bytes.size() != 1) {
       break;
     }
     text += bytes;
-    here = behind(here, bytes.front());
+    all = reachable(behind(all, bytes.front()), rest);
   }
   return text;
+}
+
+std::size_t GrammarWalk::longest_brief() const {
+  std::size_t longest = 0;
+  for (const int index : here_) {
+    longest = std::max(longest, node(index).longest_brief);
+  }
+  return longest;
 }
 
 }  // namespace saca::language_model

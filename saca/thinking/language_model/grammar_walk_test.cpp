@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <set>
@@ -16,6 +17,8 @@
 
 namespace saca::language_model::grammar_walk_test {
 namespace {
+
+using Rest = GrammarWalk::Rest;
 
 constexpr std::string_view small =
     "root ::= \"So \" (turn | \"brake\" (\" hard\")?) \".\\nGo\"\n"
@@ -84,6 +87,36 @@ TEST(GrammarWalk, NothingMustComeWhereATextMayEnd) {
   EXPECT_EQ(walk->possible(), " ");
 }
 
+// With the choice that each leaves: what it comes to.
+TEST(GrammarWalk, ABriefTextLeavesOutWhatMayBeLeftOut) {
+  auto walk = GrammarWalk::make(
+      "root ::= \"1. \" (remark \"! 2. \" (conclusion | remark \"!\") | conclusion)\n"
+      "remark ::= \"Near\" (\" by\")?\n"
+      "conclusion ::= (\"So left\" | \"So right\") (\", mild\")? \".\"\n");
+  ASSERT_TRUE(walk.has_value());
+  EXPECT_EQ(walk->forced(), "1. ");
+  EXPECT_EQ(walk->forced(Rest::brief), "1. So ");
+  EXPECT_EQ(walk->longest_brief(), std::string_view("1. So right.").size());
+  walk->take("1. ");
+  EXPECT_EQ(walk->possible(), "NS");
+  EXPECT_EQ(walk->possible(Rest::brief), "S");
+  GrammarWalk begun = *walk;  // a statement is said to its end
+  begun.take("Ne");
+  EXPECT_EQ(begun.forced(), "ar");
+  EXPECT_EQ(begun.forced(Rest::brief), "ar! 2. So ");
+  EXPECT_EQ(begun.longest_brief(), std::string_view("ar! 2. So right.").size());
+  begun.take("ar b");
+  EXPECT_EQ(begun.forced(Rest::brief), "y! 2. So ");
+  walk->take("So ");
+  EXPECT_EQ(walk->possible(Rest::brief), "lr");
+  walk->take("left");
+  EXPECT_EQ(walk->forced(), "");
+  EXPECT_EQ(walk->forced(Rest::brief), ".");
+  walk->take(".");
+  EXPECT_EQ(walk->forced(Rest::brief), "");
+  EXPECT_EQ(walk->longest_brief(), 0U);
+}
+
 TEST(GrammarWalk, RefusesWhatItDoesNotKnow) {
   for (const char* grammar :
        {"", "root ::= [a-z]\n", "root ::= \"a\"*\n", "root ::= other\n", "root \"a\"\n",
@@ -132,6 +165,38 @@ TEST(GrammarWalk, FollowsReplies) {
     }
   }
   EXPECT_LT(chosen, bytes / 4) << "most of a reply leaves no choice";
+}
+
+// Wherever a reply is told to be brief, it says what it has begun, comes to its conclusion, and is
+// a reply of the grammar.
+TEST(GrammarWalk, EndsRepliesBriefly) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const preview::Situation situation = crowded_situation(seed);
+    const std::string prompt = scene_part(situation, std::nullopt, 0.0);
+    const std::string grammar = reply_grammar(situation, prompt, std::nullopt);
+    const auto begin = GrammarWalk::make(grammar);
+    ASSERT_TRUE(begin.has_value()) << grammar;
+    const Gbnf reader(grammar);
+    std::mt19937_64 random(seed);
+    const std::string whole = reader.drawn(random);
+    for (std::size_t i = 0; i <= whole.size(); ++i) {
+      std::string text = whole.substr(0, i);
+      GrammarWalk walk = *begin;
+      walk.take(text);
+      const std::size_t most = walk.longest_brief();
+      for (std::string bytes = walk.possible(Rest::brief); !bytes.empty();
+           bytes = walk.possible(Rest::brief)) {
+        const std::string_view byte(&bytes[random() % bytes.size()], 1);
+        walk.take(byte);
+        text += byte;
+      }
+      EXPECT_TRUE(reader.accepts(text)) << text;
+      EXPECT_LE(text.size() - i, most) << text;
+      const std::string rest = text.substr(i);
+      const auto statements = std::count(rest.begin(), rest.end(), '\n');
+      EXPECT_LE(statements, 2) << "what was begun, and the conclusion: " << text;
+    }
+  }
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class Grammar {
   /// What can follow when so many statements have been made, and the next is of this kind or a
   /// later one.
   [[nodiscard]] std::string rest(int number, std::size_t next) const {
-    std::vector<std::string> ways{"conclusion"};
+    std::vector<std::string> ways{std::string(gbnf::conclusion_rule)};
     for (std::size_t kind = next; number < most_statements && kind < statement_kinds.size();
          ++kind) {
       if (std::find(known_.begin(), known_.end(), statement_kinds.at(kind)) != known_.end()) {
@@ -133,7 +133,8 @@ class Grammar {
         all.push_back(literal(statements_.conclusion(choice, std::nullopt)));
       }
     }
-    rules_ += fmt::format("conclusion ::= {} {}\n", one_of(all), R"(".\nResponse to user:")");
+    rules_ += fmt::format("{} ::= {} {}\n", gbnf::conclusion_rule, one_of(all),
+                          R"(".\nResponse to user:")");
   }
 
   /// With which a choice may be compared.
