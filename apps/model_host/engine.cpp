@@ -14,6 +14,7 @@
 
 #include "free_cores.h"
 #include "recent_cost.h"
+#include "reply_pace.h"
 #include "saca/base/core/processor_time.h"
 #include "thread_choice.h"
 #include "token_choice.h"
@@ -80,7 +81,6 @@ class Batch {
 
   void clear() { batch_.n_tokens = 0; }
   [[nodiscard]] int size() const { return batch_.n_tokens; }
-  [[nodiscard]] bool full() const { return batch_.n_tokens == batch_capacity; }
   [[nodiscard]] const llama_batch& get() const { return batch_; }
 
   /// @return  index of the token in the batch, under which its logits are found
@@ -131,9 +131,9 @@ struct Engine::State {
   llama_pos system_tokens = 0;
   Batch batch;
   // Outlive an ask: the first step of the next one is planned with them.
-  RecentCost step_cost;    // of one token for each scene
-  RecentCost run_cost;     // of a token where the grammar forced several
-  RecentCost answer_cost;  // of one scene
+  RecentCost step_cost;  // of one token for each scene
+  RecentCost run_cost;   // of a token where the grammar forced several
+  ReplyPace pace;
   ThreadChoice threads;
   FreeCores free_cores;
   double least_token_cost = std::numeric_limits<double>::max();  // of a prompt [s]
@@ -168,14 +168,17 @@ struct Engine::State {
   }
 
   // What comes next, with all that is certain to follow it.
-  [[nodiscard]] Tokens chosen(SceneProgress& thought, int batch_index) const {
-    Tokens tokens = thought.choice.forced();
-    if (tokens.empty()) {
-      tokens.push_back(thought.choice.next(llama_get_logits_ith(context, batch_index)));
-      const Tokens more = thought.choice.forced();
-      tokens.insert(tokens.end(), more.begin(), more.end());
+  void choose(SceneProgress& thought, int batch_index) const {
+    add_forced(thought);
+    if (thought.next.empty()) {
+      thought.next.push_back(thought.choice.next(llama_get_logits_ith(context, batch_index)));
+      add_forced(thought);
     }
-    return tokens;
+  }
+
+  static void add_forced(SceneProgress& thought) {
+    const Tokens more = thought.choice.forced();
+    thought.next.insert(thought.next.end(), more.begin(), more.end());
   }
 
   [[nodiscard]] std::vector<double> digit_logits(int batch_index) const {
@@ -187,17 +190,20 @@ struct Engine::State {
     return result;
   }
 
-  // Evaluates `tokens` from `position` on. The last one's logits are kept when `with_logits`.
+  // Evaluates `tokens` from `position` on, the last `together` of them in one step; of these the
+  // logits of the first and the last are kept; none where it is 0.
   // @return  batch index of the last token; -1 when stopped
   int evaluate_run(const Tokens& tokens, llama_pos position, llama_seq_id sequence,
-                   bool with_logits, Clock::Time until) {
+                   std::size_t together, Clock::Time until) {
     int last = -1;
-    for (std::size_t i = 0; i < tokens.size();) {
+    const std::size_t size = tokens.size();
+    for (std::size_t i = 0; i < size;) {
       batch.clear();
-      while (i < tokens.size() && !batch.full()) {
-        const bool is_last = i + 1 == tokens.size();
-        last = batch.add(tokens[i], position++, sequence, with_logits && is_last);
-        ++i;
+      const std::size_t full = i + static_cast<std::size_t>(batch_capacity);
+      for (const std::size_t end = full >= size ? size : std::min(full, size - together); i < end;
+           ++i) {
+        const bool is_kept = together > 0 && (i + together == size || i + 1 == size);
+        last = batch.add(tokens[i], position++, sequence, is_kept);
       }
       if (!evaluate(until)) {
         return -1;
@@ -242,13 +248,13 @@ struct Engine::State {
     for (const SceneProgress* thought : thoughts) {
       forget_from(thought->scene, thought->position);
     }
-    answer_cost.add(to_seconds(clock->now() - begin) / static_cast<double>(thoughts.size()));
+    learn_step_cost(thoughts.size(), to_seconds(clock->now() - begin));
     return done;
   }
 
   // Until when something else than reading the answers of so many scenes may go on.
   [[nodiscard]] Clock::Time reserved(Clock::Time deadline, std::size_t scenes) const {
-    const double reserve = reserve_factor * answer_cost.get() * static_cast<double>(scenes);
+    const double reserve = reserve_factor * expected_cost(scenes * stem.size(), scenes);
     return deadline - from_seconds(reserve);
   }
 
@@ -309,7 +315,7 @@ struct Engine::State {
       thought.end = AnswerKind::ended;  // the answer is read from here
       thought.reasoning = false;
     } else if (thought.next.empty()) {
-      thought.next = chosen(thought, running.last);
+      choose(thought, running.last);
     }
   }
 
@@ -328,19 +334,41 @@ struct Engine::State {
     return std::max(step_cost.get(), of_run);
   }
 
-  // The next tokens of each scene that still reasons: all that its grammar forces, or one of each
-  // where there is no time for more.
+  // Replies come to their conclusion where there is no time left for a further statement.
+  void be_brief_if_short(std::vector<SceneProgress>& thoughts, double left) const {
+    std::size_t tokens = 0;
+    std::size_t scenes = 0;
+    for (const SceneProgress& thought : thoughts) {
+      if (const auto rest = thought.choice.brief_tokens(); thought.reasoning && rest) {
+        tokens += thought.next.size() + *rest;
+        ++scenes;
+      }
+    }
+    if (pace.is_short(left, tokens, scenes)) {
+      for (SceneProgress& thought : thoughts) {
+        thought.choice.be_brief();
+        add_forced(thought);
+      }
+    }
+  }
+
+  // The next tokens of each scene that still reasons: all that its grammar forces, or as many as
+  // there is time for.
   // @return  false when the deadline leaves time for the final answers only
   bool reason_on(std::vector<SceneProgress>& thoughts, int max_tokens, Clock::Time deadline,
                  AskFigures& figures, const EngineEvents& events) {
     const Clock::Time stop = reserved(deadline, thoughts.size());
     const Clock::Time begin = clock->now();
+    be_brief_if_short(thoughts, to_seconds(stop - begin));
     const std::size_t scenes = step_size(thoughts, 1);
     const auto fits = [&](std::size_t most) {
       const double cost = expected_cost(step_size(thoughts, most), scenes);
       return begin + from_seconds(reserve_factor * cost) < stop;
     };
-    const std::size_t most = fits(longest_run) ? longest_run : 1;
+    std::size_t most = longest_run;
+    while (most > 1 && !fits(most)) {
+      most /= 2;
+    }
     if (!fits(most)) {
       return false;
     }
@@ -369,15 +397,23 @@ struct Engine::State {
     return true;
   }
 
-  // Learns from what a step of so many scenes took.
-  void note_step(std::size_t scenes, double cost, double computed_before, AskFigures& figures) {
-    figures.reply_seconds += cost;
+  // @param scenes  that the batch has tokens of
+  // @param cost    that it took [s]
+  void learn_step_cost(std::size_t scenes, double cost) {
     if (const auto tokens = static_cast<std::size_t>(batch.size()); tokens > scenes) {
       run_cost.add(cost / static_cast<double>(tokens));
-      return;
+    } else {
+      step_cost.add(cost);
     }
-    step_cost.add(cost);
-    if (threads.note_step(scenes, cost, computing(computed_before, cost))) {
+  }
+
+  // Learns from what a step of so many scenes' replies took.
+  void note_step(std::size_t scenes, double cost, double computed_before, AskFigures& figures) {
+    figures.reply_seconds += cost;
+    const auto tokens = static_cast<std::size_t>(batch.size());
+    pace.add(cost, tokens);
+    learn_step_cost(scenes, cost);
+    if (tokens == scenes && threads.note_step(scenes, cost, computing(computed_before, cost))) {
       run_cost = {};
       step_cost = {};
       step_cost.add(threads.step_alone(scenes));
@@ -400,31 +436,35 @@ struct Engine::State {
     return read_answers(these, kind, deadline, events);
   }
 
-  // Evaluates a scene's prompt and reads its first answer. False when the deadline came first.
+  // Evaluates a scene's prompt and, in the same step, reads its first answer. False when the
+  // deadline came first.
   bool begin_scene(SceneProgress& thought, const Tokens& prompt, Clock::Time deadline,
                    AskFigures& figures, const EngineEvents& events) {
     look_for_others();
     const Clock::Time begin = clock->now();
     const double computed_before = processor_seconds();
-    // Only its own answer is waited for: those before it have theirs.
-    const int last = evaluate_run(prompt, system_tokens, sequence(thought.scene), true,
-                                  deadline - from_seconds(answer_cost.get()));
+    Tokens tokens = prompt;
+    tokens.insert(tokens.end(), stem.begin(), stem.end());
+    const int last =
+        evaluate_run(tokens, system_tokens, sequence(thought.scene), 1 + stem.size(), deadline);
     const double cost = to_seconds(clock->now() - begin);
     figures.prompt_seconds += cost;
     if (last < 0) {
       return false;
     }
-    learn_token_cost(cost, prompt.size());
-    if (prompt.size() >= telling_tokens) {
-      threads.note_prompt(cost / static_cast<double>(prompt.size()),
+    learn_token_cost(cost, tokens.size());
+    if (tokens.size() >= telling_tokens) {
+      threads.note_prompt(cost / static_cast<double>(tokens.size()),
                           computing(computed_before, cost));
     }
     figures.prompt_tokens[thought.scene] = static_cast<int>(prompt.size());
     events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
+    events.answer(thought.scene, AnswerKind::first, digit_logits(last));
     thought.position = system_tokens + static_cast<llama_pos>(prompt.size());
-    thought.next = chosen(thought, last);
+    forget_from(thought.scene, thought.position);
+    choose(thought, last - static_cast<int>(stem.size()));
     thought.reasoning = true;
-    return read_answers({&thought}, AnswerKind::first, deadline, events);
+    return true;
   }
 
   // Chooses the threads by what others left of the cores of late.
@@ -595,7 +635,7 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
   s.clock = nullptr;  // nothing to be late for
   const Clock::Time begin = clock.now();
   const double computed_before = processor_seconds();
-  if (s.evaluate_run(tokens, 0, sequence(0), false, Clock::Time::max()) < 0) {
+  if (s.evaluate_run(tokens, 0, sequence(0), 0, Clock::Time::max()) < 0) {
     return Error{Error::Code::malformed, "system part: cannot be evaluated"};
   }
   // Cold, thus dear: half of it may be enough another time.
@@ -643,7 +683,7 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
   // Once a step or an answer stalled for longer than an ask has, none would be tried again.
   s.step_cost.fade();
   s.run_cost.fade();
-  s.answer_cost.fade();
+  s.pace.fade();
   return s.think(std::move(tasks).value(), deadline, form.max_tokens, clock, events);
 }
 

@@ -59,8 +59,9 @@ constexpr std::size_t max_scenes = language_model::most_scenes;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
 /// A language model in this process, through llama.cpp. The same weights, system part, scenes,
-/// grammars, sampling seed and order of calls give the same text; the deadline decides only where
-/// it is cut. Where it gives way, the last bits of a probability may differ.
+/// grammars, sampling seed and order of calls give the same text; the deadline decides only from
+/// where on it is brief, and where it is cut. Where it gives way, the last bits of a probability
+/// may differ.
 class Engine {
  public:
   /// @return  Error::Code::unreadable or malformed, naming the file
@@ -79,8 +80,10 @@ class Engine {
   /// deadline leaves just the time to read the final answers: that reserve follows what the last
   /// steps cost.
   ///
-  /// For each scene in turn the prompt is evaluated and its first answer read; then all reason
-  /// together; each final answer is read from the eight digits' logits after what was generated.
+  /// For each scene in turn the prompt is evaluated and, with it, its first answer read; then all
+  /// reason together; each final answer is read from the eight digits' logits after what was
+  /// generated. Where there is no time for a further statement, replies that are held to a grammar
+  /// leave out what it lets them (GrammarWalk::Rest::brief).
   ///
   /// @return  malformed when a prompt does not fit, a grammar cannot be read or no system part is
   ///          set

@@ -16,6 +16,9 @@ namespace {
 // nobody would write.
 constexpr float nucleus = 0.95F;
 
+// Figures, hyphens and stops are tokens by themselves: statements have 2.2 to 2.6 bytes a token.
+constexpr std::size_t bytes_a_token = 2;
+
 llama_sampler* drawing(int seed) {
   llama_sampler* const chain = llama_sampler_chain_init(llama_sampler_chain_default_params());
   const auto temperature = static_cast<float>(language_model::sampling_temperature);
@@ -87,7 +90,7 @@ void TokenChoice::take(llama_token token) {
 }
 
 std::vector<llama_token> TokenChoice::forced() {
-  const std::string text = walk_ ? text_ + walk_->forced() : "";
+  const std::string text = walk_ ? text_ + walk_->forced(rest_) : "";
   // Up to the last whole character: no tokeniser has a part of one.
   const std::string whole = Utf8Splitter().take(text);
   if (whole.size() <= text_.size()) {
@@ -101,13 +104,18 @@ std::vector<llama_token> TokenChoice::forced() {
       text_of(vocab_, all) != whole) {
     return {};
   }
-  const std::ptrdiff_t kept = may_grow(whole.back(), behind.possible()) ? 1 : 0;
+  const std::ptrdiff_t kept = may_grow(whole.back(), behind.possible(rest_)) ? 1 : 0;
   std::vector<llama_token> tokens(all.begin() + static_cast<std::ptrdiff_t>(tokens_.size()),
                                   all.end() - kept);
   for (const llama_token token : tokens) {
     take(token);
   }
   return tokens;
+}
+
+std::optional<std::size_t> TokenChoice::brief_tokens() const {
+  return walk_ ? std::optional((walk_->longest_brief() + bytes_a_token - 1) / bytes_a_token)
+               : std::nullopt;
 }
 
 bool TokenChoice::is_allowed(llama_token token) const {

@@ -2,6 +2,7 @@
 
 #include <llama.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,14 @@ class TokenChoice {
   /// the notation than `GrammarWalk` knows.
   [[nodiscard]] std::vector<llama_token> forced();
 
+  /// From here on what may be left out is left out (GrammarWalk::Rest::brief), as long as the text
+  /// can be followed: what must come next is what briefly must.
+  void be_brief() { rest_ = language_model::GrammarWalk::Rest::brief; }
+
+  /// Of how many tokens the rest of the text is, nearly at most, if it is brief from here on;
+  /// nullopt where it cannot be followed.
+  [[nodiscard]] std::optional<std::size_t> brief_tokens() const;
+
  private:
   using Sampler = std::unique_ptr<llama_sampler, decltype(&llama_sampler_free)>;
 
@@ -51,6 +60,7 @@ class TokenChoice {
   std::optional<language_model::GrammarWalk> walk_;  ///< nullopt: nothing is known to be forced
   std::string text_;                                 ///< so far, where there is a walk
   std::vector<llama_token> tokens_;                  ///< of it
+  language_model::GrammarWalk::Rest rest_ = language_model::GrammarWalk::Rest::any;
 };
 
 }  // namespace saca::model_host
