@@ -19,7 +19,7 @@ def tool(name, *arguments):
 
 def test_the_start_is_the_empty_line_after_the_headline(tmp_path):
     program = tmp_path / "program"
-    program.write_text("#!/bin/sh\necho headline\nsleep 0.3\necho\nsleep 3\necho T1: now\nsleep 3\n")
+    program.write_text("#!/bin/sh\necho headline: T1: later\nsleep 0.3\necho\nsleep 3\necho T1: now\nsleep 3\n")
     program.chmod(0o755)
     run = tool("start_time.py", program, "scenario")
     assert run.returncode == 0, run.stderr
