@@ -240,15 +240,21 @@ class Assignment {
 
   /// @param rows  not more than `columns`
   Assignment(Actors rows, Actors columns) : rows_(rows), columns_(columns) {
+    std::array<bool, world::max_actors> is_like_somebody;
     for (std::size_t i = 0; i < rows.size(); ++i) {
+      is_like_somebody[i] = false;
       for (std::size_t j = 0; j < columns.size(); ++j) {
         pair2_[i][j] = actor_difference2(rows[i], columns[j]);
+        is_like_somebody[i] |= saving2(i, j) > Real{0};
       }
     }
     std::fill_n(row_of_.begin(), columns.size(), nobody);
     std::fill_n(column_price_.begin(), columns.size(), Real{0});
+    // Whom nobody is like stays unmatched, and takes nobody's place.
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      assign(i);
+      if (is_like_somebody[i]) {
+        assign(i);
+      }
     }
   }
 
