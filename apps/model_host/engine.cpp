@@ -400,7 +400,9 @@ struct Engine::State {
   // @param scenes  that the batch has tokens of
   // @param cost    that it took [s]
   void learn_step_cost(std::size_t scenes, double cost) {
-    if (const auto tokens = static_cast<std::size_t>(batch.size()); tokens > scenes) {
+    const auto tokens = static_cast<std::size_t>(batch.size());
+    pace.add(cost, tokens);
+    if (tokens > scenes) {
       run_cost.add(cost / static_cast<double>(tokens));
     } else {
       step_cost.add(cost);
@@ -410,10 +412,9 @@ struct Engine::State {
   // Learns from what a step of so many scenes' replies took.
   void note_step(std::size_t scenes, double cost, double computed_before, AskFigures& figures) {
     figures.reply_seconds += cost;
-    const auto tokens = static_cast<std::size_t>(batch.size());
-    pace.add(cost, tokens);
     learn_step_cost(scenes, cost);
-    if (tokens == scenes && threads.note_step(scenes, cost, computing(computed_before, cost))) {
+    if (static_cast<std::size_t>(batch.size()) == scenes &&
+        threads.note_step(scenes, cost, computing(computed_before, cost))) {
       run_cost = {};
       step_cost = {};
       step_cost.add(threads.step_alone(scenes));

@@ -5,11 +5,12 @@
 namespace saca::model_host {
 
 /// Tells from when on replies have to be brief, so that they are whole when their time is up: by
-/// what a token of a reply took of late, however many were evaluated together.
+/// what a token of a reply, or of the question for its answer, took of late, however many were
+/// evaluated together.
 class ReplyPace {
  public:
   /// @param cost    of a step [s], >= 0
-  /// @param tokens  that it wrote, of all replies together, > 0
+  /// @param tokens  that it evaluated, of all replies together, > 0
   void add(double cost, std::size_t tokens) {
     cost_ += cost;
     tokens_ += static_cast<double>(tokens);
