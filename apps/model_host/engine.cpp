@@ -132,7 +132,7 @@ struct Engine::State {
   Batch batch;
   // Outlive an ask: the first step of the next one is planned with them.
   RecentCost step_cost;  // of one token for each scene
-  RecentCost run_cost;   // of a token where the grammar forced several
+  RecentCost run_cost;   // of a token where many are evaluated at once
   ReplyPace pace;
   ThreadChoice threads;
   FreeCores free_cores;
@@ -248,13 +248,15 @@ struct Engine::State {
     for (const SceneProgress* thought : thoughts) {
       forget_from(thought->scene, thought->position);
     }
-    learn_step_cost(thoughts.size(), to_seconds(clock->now() - begin));
+    if (done) {  // who is withdrawn has not been answered in next to no time
+      learn_step_cost(thoughts.size(), to_seconds(clock->now() - begin));
+    }
     return done;
   }
 
   // Until when something else than reading the answers of so many scenes may go on.
   [[nodiscard]] Clock::Time reserved(Clock::Time deadline, std::size_t scenes) const {
-    const double reserve = reserve_factor * expected_cost(scenes * stem.size(), scenes);
+    const double reserve = reserve_factor * pace.cost_of(scenes * stem.size());
     return deadline - from_seconds(reserve);
   }
 
@@ -330,11 +332,16 @@ struct Engine::State {
 
   // What a step is taken to cost, by what the last ones did [s].
   [[nodiscard]] double expected_cost(std::size_t tokens, std::size_t scenes) const {
-    const double of_run = tokens > scenes ? run_cost.get() * static_cast<double>(tokens) : 0.0;
+    if (tokens <= scenes) {
+      return step_cost.get();
+    }
+    const double of_run =
+        run_cost.get() > 0.0 ? run_cost.get() * static_cast<double>(tokens) : pace.cost_of(tokens);
     return std::max(step_cost.get(), of_run);
   }
 
-  // Replies come to their conclusion where there is no time left for a further statement.
+  // Replies come to their conclusion where there is no time left for a further statement; not in
+  // lockstep, where the world waits for them.
   void be_brief_if_short(std::vector<SceneProgress>& thoughts, double left) const {
     std::size_t tokens = 0;
     std::size_t scenes = 0;
@@ -344,7 +351,7 @@ struct Engine::State {
         ++scenes;
       }
     }
-    if (pace.is_short(left, tokens, scenes)) {
+    if (settings.gives_way && pace.is_short(left, tokens, scenes)) {
       for (SceneProgress& thought : thoughts) {
         thought.choice.be_brief();
         add_forced(thought);
@@ -402,9 +409,10 @@ struct Engine::State {
   void learn_step_cost(std::size_t scenes, double cost) {
     const auto tokens = static_cast<std::size_t>(batch.size());
     pace.add(cost, tokens);
-    if (tokens > scenes) {
+    // A step of a few tokens for each scene tells nothing of the cost of one more.
+    if (tokens >= scenes * stem.size()) {
       run_cost.add(cost / static_cast<double>(tokens));
-    } else {
+    } else if (tokens == scenes) {
       step_cost.add(cost);
     }
   }
@@ -418,6 +426,8 @@ struct Engine::State {
       run_cost = {};
       step_cost = {};
       step_cost.add(threads.step_alone(scenes));
+      pace = {};
+      pace.add(threads.step_alone(scenes), scenes);
     }
   }
 
@@ -489,7 +499,7 @@ struct Engine::State {
 
   // What the first answer takes when everything goes as well as it ever did [s].
   [[nodiscard]] double least_cost(const Tokens& prompt) const {
-    return least_token_cost * static_cast<double>(prompt.size());
+    return least_token_cost * static_cast<double>(prompt.size() + stem.size());
   }
 
   [[nodiscard]] Result<std::vector<Task>> tasks(const std::vector<std::string>& scenes,
@@ -681,7 +691,8 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.threads.take_all();
-  // Once a step or an answer stalled for longer than an ask has, none would be tried again.
+  // Once a step or an answer stalled for longer than an ask has, none would be tried again, and
+  // every reply would be brief.
   s.step_cost.fade();
   s.run_cost.fade();
   s.pace.fade();

@@ -20,7 +20,9 @@ struct EngineSettings {
   int threads = 2;           ///< > 0
   int context = 1536;        ///< room for the tokens of the system part, one scene and its reply
   double temperature = 1.0;  ///< by which the logits of the answers are divided, > 0
-  bool gives_way = false;    ///< one thread where others want the cores: see thread_choice.h
+  /// At real pace: one thread where others want the cores (thread_choice.h), brief replies where
+  /// time is short. Without, only the deadline itself decides what a reply is.
+  bool gives_way = false;
   /// Prompts are read faster on some processors, tokens of a reply made at half the speed on all
   /// that were measured: which is worth it is measured at set-up.
   bool flash_attention = false;
@@ -59,9 +61,9 @@ constexpr std::size_t max_scenes = language_model::most_scenes;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
 /// A language model in this process, through llama.cpp. The same weights, system part, scenes,
-/// grammars, sampling seed and order of calls give the same text; the deadline decides only from
-/// where on it is brief, and where it is cut. Where it gives way, the last bits of a probability
-/// may differ.
+/// grammars, sampling seed and order of calls give the same text; the deadline decides only where
+/// it is cut. Where it gives way, it decides also from where on a reply is brief, and the last bits
+/// of a probability may differ.
 class Engine {
  public:
   /// @return  Error::Code::unreadable or malformed, naming the file
@@ -82,8 +84,8 @@ class Engine {
   ///
   /// For each scene in turn the prompt is evaluated and, with it, its first answer read; then all
   /// reason together; each final answer is read from the eight digits' logits after what was
-  /// generated. Where there is no time for a further statement, replies that are held to a grammar
-  /// leave out what it lets them (GrammarWalk::Rest::brief).
+  /// generated. Where it gives way and there is no time for a further statement, replies that are
+  /// held to a grammar leave out what it lets them (GrammarWalk::Rest::brief).
   ///
   /// @return  malformed when a prompt does not fit, a grammar cannot be read or no system part is
   ///          set

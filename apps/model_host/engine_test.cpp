@@ -25,8 +25,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t num_scenes = 2;
 
-/// Goes on by as much each time that it is looked at, as a step does many times: what takes how
-/// long hangs on the work alone, not on the machine.
+/// Goes on by as much each time that it is looked at, as each step does about as often: what takes
+/// how long hangs on the number of steps alone, not on the machine.
 class CountingClock final : public Clock {
  public:
   [[nodiscard]] Time now() const noexcept override { return now_ += 1us; }
@@ -54,7 +54,7 @@ class EngineTest : public testing::Test {
       GTEST_SKIP() << SACA_MODEL << " is not there";
     }
     llama_log_set([](ggml_log_level, const char*, void*) {}, nullptr);
-    auto engine = Engine::load({.model_path = SACA_MODEL, .threads = 1});
+    auto engine = Engine::load({.model_path = SACA_MODEL, .threads = 1, .gives_way = true});
     ASSERT_TRUE(engine.has_value()) << engine.error().message;
     engine_ = engine.value();
     const auto system = engine_->set_system(

@@ -61,8 +61,8 @@ int run(int argc, char** argv) {
                  "by which the logits of the eight answers are divided: above 1 less sure")
       ->check(CLI::Range(0.01, 100.0));
   app.add_flag("--give-way", settings.gives_way,
-               "compute with one thread where others want the cores; the last bits of an answer "
-               "depend on it");
+               "compute with one thread where others want the cores, and write briefly where time "
+               "is short; text and the last bits of an answer depend on it");
   app.add_flag("--flash-attention", settings.flash_attention,
                "attention in one pass; the last bits of an answer depend on it");
   try {

@@ -22,14 +22,18 @@ class ReplyPace {
     tokens_ *= kept;
   }
 
+  /// What so many tokens take, as they are written [s]; 0 before the first step.
+  [[nodiscard]] double cost_of(std::size_t tokens) const {
+    return tokens_ > 0.0 ? static_cast<double>(tokens) * cost_ / tokens_ : 0.0;
+  }
+
   /// @param left    time for replies [s]
   /// @param tokens  that all of them still take if they are brief
   /// @param scenes  how many still reason
   /// @return        whether there is no time for a further statement each; false before the first
   ///                step
   [[nodiscard]] bool is_short(double left, std::size_t tokens, std::size_t scenes) const {
-    const auto with_statements = static_cast<double>(tokens + scenes * statement_tokens);
-    return tokens_ > 0.0 && margin * with_statements * cost_ / tokens_ > left;
+    return tokens_ > 0.0 && margin * cost_of(tokens + scenes * statement_tokens) > left;
   }
 
  private:

@@ -8,8 +8,10 @@ namespace {
 TEST(ReplyPace, IsShortWhereNoFurtherStatementFits) {
   ReplyPace pace;
   EXPECT_FALSE(pace.is_short(0.0, 100, 3)) << "nothing is known yet";
+  EXPECT_EQ(pace.cost_of(100), 0.0);
   pace.add(0.030, 3);   // a token each
   pace.add(0.070, 17);  // forced text: 5 ms a token on average
+  EXPECT_DOUBLE_EQ(pace.cost_of(10), 0.050);
   // Three brief ends of 20 tokens take 0.3 s, with a statement more each at least half as much
   // again; twice that is plenty.
   EXPECT_TRUE(pace.is_short(0.30, 60, 3));

@@ -36,8 +36,9 @@ class TokenChoice {
   /// the notation than `GrammarWalk` knows.
   [[nodiscard]] std::vector<llama_token> forced();
 
-  /// From here on what may be left out is left out (GrammarWalk::Rest::brief), as long as the text
-  /// can be followed: what must come next is what briefly must.
+  /// From here on `forced` leaves out what may be left out (GrammarWalk::Rest::brief), as long as
+  /// the text can be followed. What is chosen is not narrowed: a grammar whose conclusions begin
+  /// alike leaves nothing else to choose.
   void be_brief() { rest_ = language_model::GrammarWalk::Rest::brief; }
 
   /// Of how many tokens the rest of the text is, nearly at most, if it is brief from here on;

@@ -56,6 +56,7 @@ def test_a_run_that_is_missing_is_named():
 
 def test_weights_that_were_taught_are_not_called_untaught():
     runs = committed()
+    runs["model_bench"]["meta.model"] = "SmolLM2-135M-Instruct.BF16.gguf e76cc47c (llama 256M BF16)"
     assert "BF16), not fine-tuned. `saca model score`" in results_page.page_of(runs)
     runs["model_bench"]["meta.model"] = "saca-SmolLM2-135M.BF16.gguf eabe6055 (llama 256M BF16)"
     assert "BF16), fine-tuned. `saca model score`" in results_page.page_of(runs)

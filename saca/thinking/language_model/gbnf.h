@@ -11,8 +11,8 @@
 /// Pieces of grammars in llama.cpp's notation.
 namespace saca::language_model::gbnf {
 
-/// The rule of the statement that a reply comes to. A reply that has to be brief goes there as soon
-/// as its grammar lets it.
+/// The rule of the statement that a reply comes to, of texts that begin alike. A reply that has to
+/// be brief goes there as soon as its grammar lets it.
 constexpr std::string_view conclusion_rule = "conclusion";
 
 /// A text as it stands.

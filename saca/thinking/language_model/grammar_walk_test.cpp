@@ -87,7 +87,7 @@ TEST(GrammarWalk, NothingMustComeWhereATextMayEnd) {
   EXPECT_EQ(walk->possible(), " ");
 }
 
-// With the choice that each leaves: what it comes to.
+// What is begun is said to its end; what the reply comes to stays open.
 TEST(GrammarWalk, ABriefTextLeavesOutWhatMayBeLeftOut) {
   auto walk = GrammarWalk::make(
       "root ::= \"1. \" (remark \"! 2. \" (conclusion | remark \"!\") | conclusion)\n"
