@@ -35,8 +35,8 @@ constexpr llama_seq_id sequence(std::size_t scene) {
 }
 
 constexpr int batch_capacity = 512;
-// What a step or an answer is taken to cost is this many times the dearest of the last ones: on a
-// busy machine steps vary by about two.
+// What a step is taken to cost is this many times the dearest of the last ones, and reading answers
+// this many times what as many tokens took of late: on a busy machine steps vary by about two.
 constexpr double reserve_factor = 2.0;
 
 // Of a scene's forced text at most so many tokens are evaluated in one step.
@@ -343,6 +343,9 @@ struct Engine::State {
   // Replies come to their conclusion where there is no time left for a further statement; not in
   // lockstep, where the world waits for them.
   void be_brief_if_short(std::vector<SceneProgress>& thoughts, double left) const {
+    if (!settings.gives_way) {
+      return;
+    }
     std::size_t tokens = 0;
     std::size_t scenes = 0;
     for (const SceneProgress& thought : thoughts) {
@@ -351,7 +354,7 @@ struct Engine::State {
         ++scenes;
       }
     }
-    if (settings.gives_way && pace.is_short(left, tokens, scenes)) {
+    if (pace.is_short(left, tokens, scenes)) {
       for (SceneProgress& thought : thoughts) {
         thought.choice.be_brief();
         add_forced(thought);

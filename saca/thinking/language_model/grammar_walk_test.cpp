@@ -26,6 +26,12 @@ constexpr std::string_view small =
 constexpr std::array<std::string_view, 5> all_of_small{
     "So left on.\nGo", "So leap on.\nGo", "So  on.\nGo", "So brake.\nGo", "So brake hard.\nGo"};
 
+/// Of the replies about a crowded scene.
+std::string crowded_grammar(unsigned seed) {
+  const preview::Situation situation = crowded_situation(seed);
+  return reply_grammar(situation, scene_part(situation, std::nullopt, 0.0), std::nullopt);
+}
+
 /// By the texts themselves: what all of those that begin so go on with, and their next bytes.
 struct Next {
   std::string forced;
@@ -142,9 +148,7 @@ TEST(GrammarWalk, FollowsReplies) {
   std::size_t bytes = 0;
   std::size_t chosen = 0;  // where there is more than one way
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const preview::Situation situation = crowded_situation(seed);
-    const std::string prompt = scene_part(situation, std::nullopt, 0.0);
-    const std::string grammar = reply_grammar(situation, prompt, std::nullopt);
+    const std::string grammar = crowded_grammar(seed);
     const auto begin = GrammarWalk::make(grammar);
     ASSERT_TRUE(begin.has_value()) << grammar;
     EXPECT_EQ(begin->forced(), "Scenario Analysis\n1. ");
@@ -171,9 +175,7 @@ TEST(GrammarWalk, FollowsReplies) {
 // a reply of the grammar.
 TEST(GrammarWalk, EndsRepliesBriefly) {
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const preview::Situation situation = crowded_situation(seed);
-    const std::string prompt = scene_part(situation, std::nullopt, 0.0);
-    const std::string grammar = reply_grammar(situation, prompt, std::nullopt);
+    const std::string grammar = crowded_grammar(seed);
     const auto begin = GrammarWalk::make(grammar);
     ASSERT_TRUE(begin.has_value()) << grammar;
     const Gbnf reader(grammar);
